@@ -1,0 +1,125 @@
+/* roadpose: the memory of one instance. Public so that the caller can place it (static, stack, any section); its
+ * members are private: nothing outside the library reads or writes them. */
+#ifndef ROADPOSE_STATE_H
+#define ROADPOSE_STATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "roadpose/disparity.h"
+#include "roadpose/limits.h"
+#include "roadpose/pose.h"
+#include "roadpose/rig.h"
+
+/* How to read one sample, prepared from the format once. */
+typedef struct {
+    uint8_t first_byte_is_high; /* 1: big-endian */
+    uint8_t value_shift;
+    uint8_t up_shift;   /* value << up_shift >> down_shift is Q8 */
+    uint8_t down_shift;
+    uint16_t value_mask;
+    uint16_t sign_mask;
+    uint16_t invalid_first;
+    uint16_t invalid_span; /* invalid when (uint16)(s - invalid_first) <= invalid_span and has_invalid */
+    uint8_t has_invalid;
+    uint8_t confidence_shift;
+    uint16_t confidence_mask; /* 0: none in the sample */
+    uint16_t confidence_min;
+    int32_t offset_q8;
+    int32_t limit_q8; /* disparities at or above it are no match */
+} roadpose_decoder_t;
+
+/* The rig on the sampling grid. Grid column i is pixel column i * COLUMN_STEP, grid row j pixel row j * ROW_STEP;
+ * x = i - column_0 and y = j - row_0 count from the grid point next to the principal point. */
+typedef struct {
+    int16_t columns;
+    int16_t rows;
+    int16_t column_0;
+    int16_t row_0;
+    int32_t du_millipx; /* pixel column of column_0 minus cu */
+    int32_t dv_millipx; /* pixel row of row_0 minus cv */
+    int32_t focal_millipx;
+    int32_t baseline_um;
+} roadpose_grid_t;
+
+/* Disparity plane on the grid: d = a x + b y + c, pixels. */
+typedef struct {
+    int32_t a_q24;
+    int32_t b_q24;
+    int64_t c_q24;
+} roadpose_plane_t;
+
+typedef struct {
+    roadpose_count_t count[ROADPOSE_MAX_GRID_COLUMNS][ROADPOSE_MAX_DISPARITY];
+} roadpose_u_disparity_t;
+
+typedef struct {
+    roadpose_count_t count[ROADPOSE_MAX_GRID_ROWS][ROADPOSE_MAX_DISPARITY];
+} roadpose_v_disparity_t;
+
+/* One bit for each cell of the u-disparity: free of obstacles, and within the widened corridor. */
+typedef struct {
+    uint32_t bits[ROADPOSE_MAX_GRID_COLUMNS][ROADPOSE_MAX_DISPARITY / 32];
+} roadpose_free_map_t;
+
+/* Samples of the free map in row order. */
+typedef struct {
+    uint16_t count;
+    uint16_t row_start[ROADPOSE_MAX_GRID_ROWS + 1]; /* points of row j: row_start[j]...row_start[j + 1] - 1 */
+    uint16_t column[ROADPOSE_MAX_POINTS];           /* grid column */
+    uint16_t disparity_q8[ROADPOSE_MAX_POINTS];
+} roadpose_points_t;
+
+#define ROADPOSE_MAX_PAIRS 1024
+#define ROADPOSE_SORT_LEVELS (ROADPOSE_MAX_DISPARITY * 8) /* an eighth of a pixel each */
+
+/* Method 2, stage 1: pairs of points of one disparity level. */
+typedef struct {
+    uint16_t order[ROADPOSE_MAX_POINTS];      /* points used, by rising disparity */
+    uint16_t bucket[ROADPOSE_SORT_LEVELS + 1];
+    uint16_t used;                            /* entries of order */
+    uint16_t pairs;
+    int16_t dx[ROADPOSE_MAX_PAIRS];           /* grid columns from the first to the second point */
+    int16_t dy[ROADPOSE_MAX_PAIRS];           /* grid rows */
+    int16_t x_sum[ROADPOSE_MAX_PAIRS];        /* x of both added */
+    int16_t y_sum[ROADPOSE_MAX_PAIRS];
+    uint16_t level_q8[ROADPOSE_MAX_PAIRS];    /* mean disparity; 0: rejected by the slope */
+} roadpose_cloud_t;
+
+/* Sums of a least-squares step over the road points, and what the acceptance needs. */
+typedef struct {
+    int64_t n, x, y, xx, xy, yy, r, xr, yr, rr;
+    uint32_t on_road, above, below;
+    uint16_t level_count[ROADPOSE_MAX_DISPARITY];
+} roadpose_moments_t;
+
+typedef struct {
+    uint32_t ready; /* ROADPOSE_READY_MARK once initialised */
+    roadpose_settings_t settings;
+    roadpose_grid_t grid;
+    roadpose_decoder_t decoder;
+    uint16_t width_px;
+    uint16_t height_px;
+    bool has_confidence_image;
+    roadpose_frame_t frame;
+    roadpose_pose_t pose; /* of the last finished frame */
+    uint8_t phase;
+    uint8_t round;      /* of a phase that repeats */
+    uint16_t cursor;    /* next row, column, point or hypothesis of the phase */
+    uint32_t random;    /* state of the linear congruential generator */
+    uint32_t thinning;  /* error term that spreads the points evenly */
+    int32_t best_score;
+    roadpose_plane_t best;
+    roadpose_plane_t plane;
+    roadpose_moments_t moments;
+    uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */
+    roadpose_free_map_t free_map;
+    roadpose_v_disparity_t v_disparity;
+    roadpose_points_t points;
+    union {
+        roadpose_u_disparity_t u_disparity; /* until the free map is made */
+        roadpose_cloud_t cloud;             /* from then on */
+    } work;
+} roadpose_t;
+
+#endif

@@ -6,7 +6,7 @@
 # Environment: ROADPOSE_BUILD_DIR (default build-host-tests), ROADPOSE_RECORDINGS, ROADPOSE_TEST_SEED.
 set -eu
 
-packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash ca-certificates'
+packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 ca-certificates'
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${ROADPOSE_BUILD_DIR:-$root/build-host-tests}

@@ -1,0 +1,57 @@
+#include "csv.h"
+
+#include <inttypes.h>
+#include <stdbool.h>
+
+#include "decimal.h"
+#include "roadpose/roadpose.h"
+
+/* 180 / pi to 2e-18 of itself: a convergent of its continued fraction. */
+#define DEGREE_NUMERATOR INT64_C(1204537366)
+#define DEGREE_DENOMINATOR INT64_C(21023143)
+
+/* Millionths of a degree, rounded half away from zero. |urad| * numerator < 2^31 * 2^30.2 < 2^62. */
+static int64_t microdegrees(int32_t urad) {
+    const int64_t half = urad < 0 ? -(DEGREE_DENOMINATOR / 2) : DEGREE_DENOMINATOR / 2;
+
+    return (urad * DEGREE_NUMERATOR + half) / DEGREE_DENOMINATOR;
+}
+
+static void print_number(FILE *csv, bool is_known, int64_t scaled, int places) {
+    char text[DECIMAL_TEXT_BYTES] = "";
+
+    if (is_known)
+        decimal_print(text, scaled, places);
+    (void)fprintf(csv, ",%s", text);
+}
+
+void csv_print_header(FILE *csv) {
+    (void)fputs("frame,status,pitch_deg,roll_deg,height_m,yaw_deg,paper_pitch_deg,paper_roll_deg,"
+                "road_points,support_permille,residual_px,range_near_m,range_far_m\n",
+                csv);
+}
+
+static void print_support(FILE *csv, bool is_known, const roadpose_pose_t *pose) {
+    print_number(csv, is_known, pose->road_points, 0);
+    print_number(csv, is_known, pose->support_permille, 0);
+    print_number(csv, is_known, pose->residual_millipx, 3);
+    print_number(csv, is_known, pose->range_near_mm, 3);
+    print_number(csv, is_known, pose->range_far_mm, 3);
+}
+
+void csv_print_pose(FILE *csv, uint32_t frame, const roadpose_pose_t *pose) {
+    const bool is_pose = pose->status == ROADPOSE_STATUS_OK;
+    const bool has_pitch = is_pose && (pose->observed & ROADPOSE_OBSERVED_PITCH) != 0;
+    const bool has_roll = is_pose && (pose->observed & ROADPOSE_OBSERVED_ROLL) != 0;
+    const bool has_height = is_pose && (pose->observed & ROADPOSE_OBSERVED_HEIGHT) != 0;
+
+    (void)fprintf(csv, "%" PRIu32 ",%s", frame, roadpose_status_word(pose->status));
+    print_number(csv, has_pitch, microdegrees(pose->pitch_urad), 6);
+    print_number(csv, has_roll, microdegrees(pose->roll_urad), 6);
+    print_number(csv, has_height, pose->height_um, 6);
+    print_number(csv, false, 0, 6); /* yaw: a plane says nothing about it */
+    print_number(csv, has_pitch, microdegrees(pose->paper_pitch_urad), 6);
+    print_number(csv, has_roll, microdegrees(pose->paper_roll_urad), 6);
+    print_support(csv, is_pose, pose);
+    (void)fputc('\n', csv);
+}

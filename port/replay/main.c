@@ -1,0 +1,136 @@
+/* roadpose-replay: plays a recording through the camera port, as a camera driver and a cyclic task would use it. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "csv.h"
+#include "fault.h"
+#include "options.h"
+#include "pgm.h"
+#include "recording.h"
+#include "rig_file.h"
+#include "roadpose/camera_port.h"
+
+#define SLICES_PER_CYCLE 16u /* any number gives the same poses */
+
+/* The camera of the recording and the listener to its poses. */
+struct roadpose_camera_context {
+    uint8_t samples[2 * ROADPOSE_MAX_WIDTH * ROADPOSE_MAX_HEIGHT]; /* the driver's one buffer */
+    bool is_lent;                                                  /* to the port */
+};
+
+typedef struct {
+    options_t options;
+    rig_file_t rig_file;
+    recording_t recording;
+    roadpose_t estimator;
+    roadpose_camera_port_t port;
+    roadpose_camera_context_t camera;
+} replay_t;
+
+static void take_back(roadpose_camera_context_t *camera, const roadpose_frame_t *frame, uint32_t frame_id) {
+    (void)frame;
+    (void)frame_id;
+    camera->is_lent = false;
+}
+
+static void print_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uint64_t time_us,
+                       const roadpose_pose_t *pose) {
+    (void)camera;
+    (void)time_us;
+    csv_print_pose(stdout, frame_id, pose);
+}
+
+static void rescale(uint8_t *samples, const rig_file_t *rig_file) {
+    uint8_t *const end = samples + (size_t)2 * rig_file->rig.width_px * rig_file->rig.height_px;
+
+    for (; samples < end; samples += 2) {
+        const uint16_t sample = rig_file_rescale(rig_file, (uint16_t)(samples[0] << 8 | samples[1]));
+
+        samples[0] = (uint8_t)(sample >> 8);
+        samples[1] = (uint8_t)(sample & 0xffu);
+    }
+}
+
+/* What a driver's interrupt does when its buffer is full: the path is only for the fault. */
+static bool expose(replay_t *replay, size_t index, const char *path) {
+    const roadpose_rig_t *rig = &replay->rig_file.rig;
+    const uint64_t time_us = (uint64_t)index * UINT64_C(1000000000) / (uint64_t)replay->rig_file.rate_millihz;
+    roadpose_frame_t frame = {replay->camera.samples, 2u * rig->width_px, rig->width_px, rig->height_px, NULL, 0};
+
+    if (!pgm_read(replay->camera.samples, rig->width_px, rig->height_px, path))
+        return false;
+    if (replay->rig_file.is_rescaled)
+        rescale(replay->camera.samples, &replay->rig_file);
+    replay->camera.is_lent = roadpose_camera_frame_ready(&replay->port, &frame,
+                                                         recording_frame_number(&replay->recording, index), time_us);
+    return replay->camera.is_lent || fault(path, "the camera port does not take the frame");
+}
+
+/* The cyclic task, called until it has worked off the frame. */
+static bool work_off(replay_t *replay, const char *path) {
+    roadpose_camera_progress_t progress = ROADPOSE_CAMERA_WORKING;
+    roadpose_camera_counters_t counters;
+
+    while (progress == ROADPOSE_CAMERA_WORKING)
+        progress = roadpose_camera_task(&replay->port, SLICES_PER_CYCLE);
+    if (progress == ROADPOSE_CAMERA_FINISHED && !replay->camera.is_lent)
+        return true;
+    roadpose_camera_read_counters(&replay->port, &counters);
+    return fault(path, "the estimator refuses the frame (result %d)", counters.last_refusal);
+}
+
+static int play(replay_t *replay) {
+    const size_t count = replay->recording.count;
+    char path[PATH_BYTES];
+    size_t index;
+
+    csv_print_header(stdout);
+    for (index = 0; index < count; index++) {
+        if (!recording_frame_path(&replay->recording, index, path) || !expose(replay, index, path) ||
+            !work_off(replay, path))
+            return EXIT_BAD_RECORDING;
+        if (fflush(stdout) != 0) {
+            (void)fault("standard output", "cannot be written: %s", strerror(errno));
+            return EXIT_FAILURE;
+        }
+        progress_show(index + 1, count);
+    }
+    progress_clear();
+    return EXIT_SUCCESS;
+}
+
+static bool set_up(replay_t *replay) {
+    const roadpose_camera_platform_t platform = {&replay->camera, NULL, NULL, take_back, NULL, print_pose};
+    char path[PATH_BYTES];
+    roadpose_result_t result;
+
+    if (!join_path(path, replay->options.recording, "rig.yml") || !rig_file_read(&replay->rig_file, path))
+        return false;
+    if (!recording_open(&replay->recording, replay->options.recording))
+        return false;
+    result = roadpose_init(&replay->estimator, &replay->rig_file.rig, &replay->rig_file.format,
+                           &replay->options.settings);
+    if (result == ROADPOSE_OK)
+        result = roadpose_camera_init(&replay->port, &platform, &replay->estimator);
+    return result == ROADPOSE_OK || fault(path, "the estimator refuses the rig (result %d)", (int)result);
+}
+
+int main(int count, char *arguments[]) {
+    static replay_t replay; /* too large for a stack */
+    int status = EXIT_BAD_RECORDING;
+
+    switch (options_parse(&replay.options, count, arguments)) {
+    case OPTIONS_HELP:
+        return fflush(stdout) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    case OPTIONS_BAD:
+        return EXIT_BAD_ARGUMENTS;
+    case OPTIONS_PLAY:
+        break;
+    }
+    if (set_up(&replay))
+        status = play(&replay);
+    recording_close(&replay.recording);
+    return status;
+}

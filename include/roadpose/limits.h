@@ -77,6 +77,9 @@
 #error "roadpose: raise ROADPOSE_COLUMN_STEP or ROADPOSE_ROW_STEP: a grid side of more than 1024 is not proved"
 #endif
 
+/* Samples that one slice of work decodes at most; other work is cut to about the same cost. */
+#define ROADPOSE_SLICE_SAMPLES 1024u
+
 /* A histogram cell holds at most one count for each grid row (u-disparity) or grid column (v-disparity). */
 #if ROADPOSE_MAX_GRID_ROWS > 255 || ROADPOSE_MAX_GRID_COLUMNS > 255
 typedef uint16_t roadpose_count_t;

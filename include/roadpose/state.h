@@ -94,7 +94,7 @@ typedef struct {
 } roadpose_moments_t;
 
 typedef struct {
-    uint32_t ready; /* ROADPOSE_READY_MARK once initialised */
+    uint32_t ready; /* a mark, once initialised */
     roadpose_settings_t settings;
     roadpose_grid_t grid;
     roadpose_decoder_t decoder;
@@ -109,7 +109,8 @@ typedef struct {
     uint32_t random;    /* state of the linear congruential generator */
     uint32_t thinning;  /* error term that spreads the points evenly */
     int32_t best_score;
-    roadpose_plane_t best;
+    int32_t slope_q16;  /* Method 2: grid rows per grid column along a disparity level */
+    bool roll_observed;
     roadpose_plane_t plane;
     roadpose_moments_t moments;
     uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */

@@ -1,0 +1,187 @@
+#include "frame_work.h"
+
+#include <string.h>
+
+#include "disparity/decoder.h"
+#include "disparity/road_points.h"
+#include "disparity/u_disparity.h"
+#include "disparity/v_disparity.h"
+#include "fixed_point/fixed_point.h"
+#include "method_work.h"
+#include "road/acceptance.h"
+#include "road/refinement.h"
+
+/* Fewer samples than this with a disparity, or in the free map, are no picture of a road. */
+#define SAMPLES_MIN 64u
+
+/* Cells that memset clears at the cost of one sample. */
+#define CLEAR_SHARE 16
+
+static uint16_t at_most(uint32_t next, int16_t end) {
+    return (uint16_t)((next < (uint32_t)end) ? next : (uint32_t)end);
+}
+
+static uint16_t rows_end(const roadpose_t *instance) {
+    const uint32_t rows = ROADPOSE_SLICE_SAMPLES / (uint32_t)instance->grid.columns; /* columns <= 1024 */
+    return at_most(instance->cursor + rows, instance->grid.rows);
+}
+
+static uint16_t columns_end(const roadpose_t *instance, uint32_t share) {
+    const uint32_t columns = ROADPOSE_SLICE_SAMPLES * share / ROADPOSE_MAX_DISPARITY;
+    return at_most(instance->cursor + columns, instance->grid.columns);
+}
+
+static void clear_slice(roadpose_t *instance) {
+    const uint16_t end = columns_end(instance, CLEAR_SHARE);
+    memset(instance->work.u_disparity.count[instance->cursor], 0,
+           (size_t)(end - instance->cursor) * sizeof instance->work.u_disparity.count[0]);
+    instance->cursor = end;
+    if (end == instance->grid.columns) {
+        roadpose_enter(instance, PHASE_U_DISPARITY);
+    }
+}
+
+static void decode(roadpose_t *instance, uint16_t grid_row) {
+    roadpose_decode_row(&instance->decoder, &instance->frame, (uint32_t)grid_row * ROADPOSE_ROW_STEP,
+                        instance->grid.columns, instance->row_q8);
+}
+
+static void u_disparity_slice(roadpose_t *instance) {
+    const uint16_t end = rows_end(instance);
+    for (uint16_t row = instance->cursor; row < end; row++) {
+        decode(instance, row);
+        instance->pose.valid_samples +=
+            roadpose_u_disparity_add_row(&instance->work.u_disparity, instance->row_q8, instance->grid.columns);
+    }
+    instance->cursor = end;
+    if (end < instance->grid.rows) {
+        return;
+    }
+    if (instance->pose.valid_samples < SAMPLES_MIN) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_DISPARITY);
+    } else {
+        roadpose_enter(instance, PHASE_FREE_MAP);
+    }
+}
+
+static void free_map_slice(roadpose_t *instance) {
+    const uint16_t end = columns_end(instance, 1);
+    roadpose_free_rule_t rule;
+    roadpose_free_rule(&rule, &instance->grid, &instance->settings);
+    for (uint16_t column = instance->cursor; column < end; column++) {
+        instance->pose.free_samples += roadpose_free_map_column(&instance->free_map, &instance->work.u_disparity,
+                                                                &rule, &instance->grid, (int16_t)column);
+    }
+    instance->cursor = end;
+    if (end < instance->grid.columns) {
+        return;
+    }
+    if (instance->pose.free_samples < SAMPLES_MIN) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_points_clear(&instance->points);
+        roadpose_enter(instance, PHASE_V_DISPARITY);
+    }
+}
+
+static void v_disparity_slice(roadpose_t *instance) {
+    const uint16_t end = rows_end(instance);
+    const int16_t columns = instance->grid.columns;
+    for (uint16_t row = instance->cursor; row < end; row++) {
+        decode(instance, row);
+        roadpose_v_disparity_row(&instance->v_disparity, &instance->free_map, instance->row_q8, columns, (int16_t)row);
+        roadpose_points_add_row(&instance->points, instance->row_q8, columns, (int16_t)row,
+                                instance->pose.free_samples, &instance->thinning);
+    }
+    instance->cursor = end;
+    if (end == instance->grid.rows) {
+        roadpose_enter(instance, (instance->settings.method == 1u) ? PHASE_PROFILE : PHASE_SORT_COUNT);
+    }
+}
+
+/* Adds the rows of one slice to the moments. Returns false when the plane is none. */
+static bool look_at_points(roadpose_t *instance, int32_t band_q8, uint16_t end) {
+    roadpose_road_rule_t rule;
+    if (!roadpose_road_rule(&rule, &instance->plane, &instance->grid, &instance->settings, band_q8)) {
+        return false;
+    }
+    if (instance->cursor == 0u) {
+        roadpose_moments_clear(&instance->moments);
+    }
+    for (uint16_t row = instance->cursor; row < end; row++) {
+        roadpose_moments_add_row(&instance->moments, &instance->points, &instance->plane, &rule, &instance->grid,
+                                 (int16_t)row);
+    }
+    instance->cursor = end;
+    return true;
+}
+
+static void refine_slice(roadpose_t *instance) {
+    const uint16_t end = rows_end(instance);
+    const int32_t band_q8 = roadpose_refine_band_q8(instance->round, &instance->settings);
+    if (!look_at_points(instance, band_q8, end)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+        return;
+    }
+    if (end < instance->grid.rows) {
+        return;
+    }
+    if (!roadpose_refine_step(&instance->moments, &instance->plane, &instance->roll_observed)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_LITTLE_SUPPORT);
+        return;
+    }
+    instance->cursor = 0;
+    instance->round++;
+    if (instance->round == ROADPOSE_REFINE_ROUNDS) {
+        roadpose_enter(instance, PHASE_ASSESS);
+    }
+}
+
+static void assess_slice(roadpose_t *instance) {
+    const uint16_t end = rows_end(instance);
+    /* a plane that was not refined is held against the first, widest band */
+    const uint8_t round = instance->settings.refine ? ROADPOSE_REFINE_ROUNDS : 0u;
+    if (!look_at_points(instance, roadpose_refine_band_q8(round, &instance->settings), end)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else if (end == instance->grid.rows) {
+        roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,
+                        instance->roll_observed);
+        roadpose_enter(instance, PHASE_DONE);
+    }
+}
+
+void roadpose_work_slice(roadpose_t *instance) {
+    switch (instance->phase) {
+    case PHASE_CLEAR:
+        clear_slice(instance);
+        break;
+    case PHASE_U_DISPARITY:
+        u_disparity_slice(instance);
+        break;
+    case PHASE_FREE_MAP:
+        free_map_slice(instance);
+        break;
+    case PHASE_V_DISPARITY:
+        v_disparity_slice(instance);
+        break;
+    case PHASE_REFINE:
+        refine_slice(instance);
+        break;
+    case PHASE_ASSESS:
+        assess_slice(instance);
+        break;
+    default:
+        roadpose_method_slice(instance);
+        break;
+    }
+}
+
+uint32_t roadpose_work_slices_max(void) {
+    const uint32_t rows_a_slice = ROADPOSE_SLICE_SAMPLES / ROADPOSE_MAX_GRID_COLUMNS;
+    const uint32_t row_pass = (ROADPOSE_MAX_GRID_ROWS + rows_a_slice - 1u) / rows_a_slice;
+    const uint32_t columns_a_slice = ROADPOSE_SLICE_SAMPLES / ROADPOSE_MAX_DISPARITY;
+    const uint32_t column_pass = (ROADPOSE_MAX_GRID_COLUMNS + columns_a_slice - 1u) / columns_a_slice;
+    /* clear and free map; u- and v-disparity, refinement, assessment. A narrower image than the limit has fewer
+     * columns and so more rows a slice: never more slices. */
+    return 2u * column_pass + (3u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
+}

@@ -1,0 +1,189 @@
+#include "method_work.h"
+
+#include "fixed_point/fixed_point.h"
+#include "road/acceptance.h"
+#include "road/plane_ransac.h"
+#include "road/road_profile.h"
+#include "road/slope_cloud.h"
+
+/* Tries of a pair that cost what ROADPOSE_SLICE_SAMPLES samples cost. */
+#define PAIR_TRIES_A_SLICE 128u
+#define FIT_ROUNDS 2u
+
+/* Fewer pairs, or fewer that agree, are no road. */
+#define PAIRS_MIN 16u
+
+void roadpose_enter(roadpose_t *instance, roadpose_phase_t phase) {
+    instance->phase = (uint8_t)phase;
+    instance->cursor = 0;
+    instance->round = 0;
+    instance->thinning = 0;
+    instance->best_score = 0;
+}
+
+void roadpose_finish(roadpose_t *instance, roadpose_status_t status) {
+    roadpose_refuse(&instance->pose, status);
+    roadpose_enter(instance, PHASE_DONE);
+}
+
+/* The method found its plane. */
+static void method_done(roadpose_t *instance, bool roll_observed) {
+    instance->roll_observed = roll_observed;
+    roadpose_enter(instance, instance->settings.refine ? PHASE_REFINE : PHASE_ASSESS);
+}
+
+static void profile_slice(roadpose_t *instance) {
+    roadpose_plane_box_t box;
+    roadpose_plane_box(&box, &instance->grid, &instance->settings);
+    roadpose_profile_try(&instance->v_disparity, &instance->grid, &box, &instance->random, &instance->plane,
+                         &instance->best_score);
+    instance->cursor++;
+    if (instance->cursor < ROADPOSE_PROFILE_HYPOTHESES) {
+        return;
+    }
+    if (instance->best_score == 0) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_enter(instance, PHASE_PROFILE_FIT);
+    }
+}
+
+static void profile_fit_slice(roadpose_t *instance) {
+    if (!roadpose_profile_fit(&instance->v_disparity, &instance->grid, &instance->plane)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+        return;
+    }
+    instance->round++;
+    if (instance->round == FIT_ROUNDS) {
+        method_done(instance, false);
+    }
+}
+
+static void sort_slice(roadpose_t *instance) {
+    const uint32_t next = (uint32_t)instance->cursor + ROADPOSE_SLICE_SAMPLES;
+    const uint16_t end = (uint16_t)((next < instance->points.count) ? next : instance->points.count);
+    const uint8_t percent = instance->settings.points_percent;
+    const bool counting = instance->phase == (uint8_t)PHASE_SORT_COUNT;
+    if (counting && instance->cursor == 0u) {
+        roadpose_cloud_clear(&instance->work.cloud);
+    }
+    if (counting) {
+        roadpose_cloud_count(&instance->work.cloud, &instance->points, instance->cursor, end, percent,
+                             &instance->thinning);
+    } else {
+        roadpose_cloud_place(&instance->work.cloud, &instance->points, instance->cursor, end, percent,
+                             &instance->thinning);
+    }
+    instance->cursor = end;
+    if (end == instance->points.count) {
+        roadpose_enter(instance, counting ? PHASE_SORT_PLACES : PHASE_PAIRS);
+    }
+}
+
+static void pairs_slice(roadpose_t *instance) {
+    for (uint32_t i = 0; i < PAIR_TRIES_A_SLICE; i++) {
+        roadpose_cloud_try_pair(&instance->work.cloud, &instance->points, &instance->grid, &instance->random);
+    }
+    instance->cursor = (uint16_t)(instance->cursor + PAIR_TRIES_A_SLICE);
+    if (instance->cursor < ROADPOSE_PAIR_TRIES && instance->work.cloud.pairs < ROADPOSE_MAX_PAIRS) {
+        return;
+    }
+    if (instance->work.cloud.pairs < PAIRS_MIN) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_enter(instance, PHASE_SLOPE);
+    }
+}
+
+static void slope_slice(roadpose_t *instance) {
+    roadpose_plane_box_t box;
+    roadpose_plane_box(&box, &instance->grid, &instance->settings);
+    roadpose_slope_try(&instance->work.cloud, &box, &instance->random, &instance->slope_q16, &instance->best_score);
+    instance->cursor++;
+    if (instance->cursor < ROADPOSE_SLOPE_HYPOTHESES) {
+        return;
+    }
+    if (instance->best_score == 0) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_enter(instance, PHASE_SLOPE_FIT);
+    }
+}
+
+static void slope_fit_slice(roadpose_t *instance) {
+    if (roadpose_slope_fit(&instance->work.cloud, &instance->slope_q16) < PAIRS_MIN) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_enter(instance, PHASE_INTERCEPT);
+    }
+}
+
+static void intercept_slice(roadpose_t *instance) {
+    roadpose_plane_box_t box;
+    roadpose_plane_box(&box, &instance->grid, &instance->settings);
+    roadpose_intercept_try(&instance->work.cloud, &box, instance->slope_q16, &instance->random, &instance->plane,
+                           &instance->best_score);
+    instance->cursor++;
+    if (instance->cursor < ROADPOSE_INTERCEPT_HYPOTHESES) {
+        return;
+    }
+    if (instance->best_score == 0) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+    } else {
+        roadpose_enter(instance, PHASE_INTERCEPT_FIT);
+    }
+}
+
+static void intercept_fit_slice(roadpose_t *instance) {
+    const uint16_t agree = roadpose_intercept_fit(&instance->work.cloud, instance->slope_q16, &instance->plane);
+    if (agree < PAIRS_MIN) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+        return;
+    }
+    instance->round++;
+    if (instance->round == FIT_ROUNDS) {
+        method_done(instance, true);
+    }
+}
+
+void roadpose_method_slice(roadpose_t *instance) {
+    switch (instance->phase) {
+    case PHASE_PROFILE:
+        profile_slice(instance);
+        break;
+    case PHASE_PROFILE_FIT:
+        profile_fit_slice(instance);
+        break;
+    case PHASE_SORT_COUNT:
+    case PHASE_SORT_PLACE:
+        sort_slice(instance);
+        break;
+    case PHASE_SORT_PLACES:
+        roadpose_cloud_places(&instance->work.cloud);
+        roadpose_enter(instance, PHASE_SORT_PLACE);
+        break;
+    case PHASE_PAIRS:
+        pairs_slice(instance);
+        break;
+    case PHASE_SLOPE:
+        slope_slice(instance);
+        break;
+    case PHASE_SLOPE_FIT:
+        slope_fit_slice(instance);
+        break;
+    case PHASE_INTERCEPT:
+        intercept_slice(instance);
+        break;
+    default:
+        intercept_fit_slice(instance);
+        break;
+    }
+}
+
+uint32_t roadpose_method_slices_max(void) {
+    const uint32_t profile = ROADPOSE_PROFILE_HYPOTHESES + FIT_ROUNDS;
+    const uint32_t sort = 2u * (ROADPOSE_MAX_POINTS / ROADPOSE_SLICE_SAMPLES + 1u) + 1u;
+    const uint32_t cloud = sort + ROADPOSE_PAIR_TRIES / PAIR_TRIES_A_SLICE + ROADPOSE_SLOPE_HYPOTHESES + 1u +
+                           ROADPOSE_INTERCEPT_HYPOTHESES + FIT_ROUNDS;
+    return (profile > cloud) ? profile : cloud;
+}

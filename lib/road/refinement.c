@@ -1,0 +1,215 @@
+#include "road/refinement.h"
+
+#include <string.h>
+
+#include "disparity/ground_range.h"
+#include "fixed_point/fixed_point.h"
+#include "road/ground_plane.h"
+
+/* Wider first: the method before is right to a tenth of a degree. Q8 pixels; the last rounds use the setting. */
+#define FIRST_ROUNDS 3
+static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {512, 384, 256};
+
+/* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
+#define BAND_LIMIT_Q8 1023
+
+/* Weights: full inside the corridor's soft edge, half in it. */
+#define FULL_WEIGHT 2
+#define HALF_WEIGHT 1
+
+/* Roll needs points that spread at least this far sideways, pitch and height this far down (root mean square). */
+#define SPREAD_MIN_PX 20
+
+#define NO_LIMIT_Q12 (INT64_C(1) << 30)
+
+int32_t roadpose_refine_band_q8(uint8_t round, const roadpose_settings_t *settings) {
+    const int32_t last = settings->noise_millipx * 256 / 1000;
+    if (round >= FIRST_ROUNDS || FIRST_BANDS_Q8[round] < last) {
+        return last;
+    }
+    return FIRST_BANDS_Q8[round];
+}
+
+/* A road point's X is f B ... in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
+ * straight below it has X = n_x h = B a / k^2, and sideways along the road is X / sqrt(1 - n_x^2). */
+bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
+                        const roadpose_settings_t *settings, int32_t band_q8) {
+    roadpose_pixel_plane_t pixels;
+    if (!roadpose_plane_to_pixels(plane, grid, &pixels)) {
+        return false;
+    }
+    const int64_t k = pixels.length_q24;
+    const int64_t n_x_q16 = roadpose_ratio(pixels.a_q24, k, 16); /* |n_x| <= 1 */
+    /* Degenerate planes may have a tiny k: the clamps keep every product below 2^62. */
+    rule->centre_q12 = roadpose_clamp(roadpose_ratio(n_x_q16, k, 20), -NO_LIMIT_Q12, NO_LIMIT_Q12);
+    const int64_t cosine_q16 = (int64_t)roadpose_sqrt((uint64_t)((INT64_C(1) << 32) - n_x_q16 * n_x_q16));
+    const int64_t width_um = (int64_t)settings->corridor_half_width_mm * 1000;
+    /* width <= 1e8 um, cosine <= 2^16: product < 2^43; / B and from Q16 to Q12 */
+    const int64_t half_q12 = width_um * cosine_q16 / grid->baseline_um / 16;
+    rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 9 / 8;
+    rule->half_inner_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 7 / 8;
+    rule->range_min_q8 = roadpose_range_min_q8(grid, settings);
+    rule->band_q8 = band_q8;
+    /* unevenness / height = unevenness * k / B; <= 200 000 um * 2^28 / 20 000: the ratio is clamped to 1 */
+    const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
+    rule->unevenness_q16 = (int32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
+    return true;
+}
+
+void roadpose_moments_clear(roadpose_moments_t *moments) {
+    memset(moments, 0, sizeof *moments);
+}
+
+/* 0 outside the corridor, else the weight. |x| <= 2^10 columns of <= 16 px and |du| <= 8 px in Q12: below 2^27;
+ * p < 2^16, centre and halves <= 2^30: products below 2^47. */
+static int32_t corridor_weight(const roadpose_road_rule_t *rule, int64_t lateral_px_q12, int32_t p_q8) {
+    const int64_t off = roadpose_abs(lateral_px_q12 * 256 - rule->centre_q12 * p_q8);
+    if (off <= rule->half_inner_q12 * p_q8) {
+        return FULL_WEIGHT;
+    }
+    return (off <= rule->half_outer_q12 * p_q8) ? HALF_WEIGHT : 0;
+}
+
+/* Sums over one row in which y is constant. At most 1024 points a row, weight <= 2, |x| <= 1024, |r| < 1024:
+ * x sums < 2^21, xx < 2^31 (unsigned), xr < 2^31 + ... : 1024 * 2 * 1024 * 1023 = 2^31 - 2^21, rr likewise. */
+typedef struct {
+    int32_t n, x, r, xr;
+    uint32_t xx, rr;
+} row_sums_t;
+
+static void row_sums_flush(roadpose_moments_t *moments, const row_sums_t *sums, int32_t y) {
+    moments->n += sums->n;
+    moments->x += sums->x;
+    moments->xx += sums->xx;
+    moments->r += sums->r;
+    moments->xr += sums->xr;
+    moments->rr += sums->rr;
+    moments->y += (int64_t)sums->n * y;
+    moments->yy += (int64_t)sums->n * y * y;
+    moments->xy += (int64_t)sums->x * y;
+    moments->yr += (int64_t)sums->r * y;
+}
+
+static void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
+    sums->n += weight;
+    sums->x += weight * x;
+    sums->xx += (uint32_t)(weight * x * x);
+    sums->r += weight * r;
+    sums->xr += weight * x * r;
+    sums->rr += (uint32_t)(weight * r * r);
+}
+
+static int32_t band_at(const roadpose_road_rule_t *rule, int32_t p_q8) {
+    const int32_t band = rule->band_q8 + (int32_t)(((int64_t)p_q8 * rule->unevenness_q16) >> 16);
+    return (band < BAND_LIMIT_Q8) ? band : BAND_LIMIT_Q8;
+}
+
+void roadpose_moments_add_row(roadpose_moments_t *moments, const roadpose_points_t *points,
+                              const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
+                              const roadpose_grid_t *grid, int16_t row) {
+    const int32_t y = row - grid->row_0;
+    /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 makes the floor below round to nearest */
+    const int64_t base_q24 = (int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15);
+    const int64_t du_q12 = (int64_t)grid->du_millipx * 4096 / 1000;
+    row_sums_t sums = {0, 0, 0, 0, 0, 0};
+    for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
+        const int32_t x = points->column[i] - grid->column_0;
+        const int64_t p_wide = roadpose_floor_shift(base_q24 + (int64_t)plane->a_q24 * x, 16);
+        if (p_wide < rule->range_min_q8 || p_wide >= ROADPOSE_MAX_DISPARITY * 256) {
+            continue; /* above the horizon, too far, or nearer than can be measured */
+        }
+        const int32_t p = (int32_t)p_wide;
+        const int32_t weight = corridor_weight(rule, (int64_t)x * (ROADPOSE_COLUMN_STEP * 4096) + du_q12, p);
+        const int32_t r = points->disparity_q8[i] - p;
+        const int32_t band = band_at(rule, p);
+        if (weight == 0) {
+            continue;
+        }
+        if (r > band) {
+            moments->above++;
+        } else if (r < -band) {
+            moments->below++;
+        } else {
+            add_point(&sums, weight, x, r);
+            moments->on_road++;
+            moments->level_count[p >> 8]++;
+        }
+    }
+    row_sums_flush(moments, &sums, y);
+}
+
+/* Second moments about the mean, times n^2: n < 2^15, sums of squares < 2^15 * 2^20, so below 2^51. */
+typedef struct {
+    int64_t xx, xy, yy, xr, yr;
+} spread_t;
+
+static void spread_about_mean(const roadpose_moments_t *m, spread_t *s) {
+    s->xx = m->n * m->xx - m->x * m->x;
+    s->xy = m->n * m->xy - m->x * m->y;
+    s->yy = m->n * m->yy - m->y * m->y;
+    s->xr = m->n * m->xr - m->x * m->r;
+    s->yr = m->n * m->yr - m->y * m->r;
+}
+
+static int64_t larger(int64_t a, int64_t b) {
+    return (a > b) ? a : b;
+}
+
+/* numerator / denominator * 2^bits for bits of either sign. */
+static int64_t scaled_ratio(int64_t numerator, int64_t denominator, int bits) {
+    if (bits >= 0) {
+        return roadpose_ratio(numerator, denominator, (unsigned)((bits > 40) ? 40 : bits));
+    }
+    return roadpose_floor_shift(roadpose_ratio(numerator, denominator, 0), (unsigned)((bits < -62) ? 62 : -bits));
+}
+
+/* The 2 x 2 system by Cramer's rule on numbers cut to 30 bits, so that the products stay below 2^61. The cut costs
+ * 2^-30 of the largest moment, far below the noise. Results: Q24 pixels per grid step. */
+static void solve_slopes(const spread_t *s, bool roll_observed, int64_t *a_q24, int64_t *b_q24) {
+    const unsigned cut = roadpose_excess_bits(larger(s->xx, s->yy), 30);
+    const unsigned cut_r = roadpose_excess_bits(larger(roadpose_abs(s->xr), roadpose_abs(s->yr)), 30);
+    const int64_t xx = s->xx >> cut;
+    const int64_t yy = s->yy >> cut;
+    const int64_t xy = roadpose_floor_shift(s->xy, cut);
+    const int64_t xr = roadpose_floor_shift(s->xr, cut_r);
+    const int64_t yr = roadpose_floor_shift(s->yr, cut_r);
+    const int bits = 16 + (int)cut_r - (int)cut; /* residuals are Q8, slopes Q24 */
+    if (roll_observed) {
+        const int64_t determinant = xx * yy - xy * xy;
+        *a_q24 = scaled_ratio(xr * yy - yr * xy, determinant, bits);
+        *b_q24 = scaled_ratio(yr * xx - xr * xy, determinant, bits);
+    } else {
+        *a_q24 = 0;
+        *b_q24 = scaled_ratio(yr, yy, bits);
+    }
+}
+
+/* Does the spread of one axis that the other does not explain reach `steps` grid steps (root mean square)? */
+static bool spreads(int64_t own, int64_t mixed, int64_t other, int64_t n, int64_t steps) {
+    const unsigned cut = roadpose_excess_bits(larger(own, other), 30);
+    const int64_t mixed_cut = roadpose_floor_shift(mixed, cut);
+    const int64_t other_cut = other >> cut;
+    const int64_t explained = (other_cut > 0) ? (mixed_cut * mixed_cut / other_cut) : 0;
+    return (own >> cut) - explained >= ((n * n * steps * steps) >> cut);
+}
+
+bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *plane, bool *roll_observed) {
+    spread_t s;
+    spread_about_mean(moments, &s);
+    if (moments->n <= 0 || !spreads(s.yy, 0, 1, moments->n, SPREAD_MIN_PX / ROADPOSE_ROW_STEP)) {
+        return false;
+    }
+    *roll_observed = spreads(s.xx, s.xy, s.yy, moments->n, SPREAD_MIN_PX / ROADPOSE_COLUMN_STEP);
+    int64_t a;
+    int64_t b;
+    solve_slopes(&s, *roll_observed, &a, &b);
+    /* a step of more than 2^30 means nonsense: clamp it, the pose check refuses the plane */
+    a = roadpose_clamp(a, -(INT64_C(1) << 30), INT64_C(1) << 30);
+    b = roadpose_clamp(b, -(INT64_C(1) << 30), INT64_C(1) << 30);
+    /* mean residual: r sum in Q8 -> Q24: 2^15 * 2^10 * 2^16; x, y sums < 2^25: a * x < 2^55 */
+    const int64_t c = (moments->r * 65536 - a * moments->x - b * moments->y) / moments->n;
+    plane->a_q24 = *roll_observed ? roadpose_clamp32(plane->a_q24 + a) : 0;
+    plane->b_q24 = roadpose_clamp32(plane->b_q24 + b);
+    plane->c_q24 = roadpose_clamp(plane->c_q24 + c, -(INT64_C(1) << 40), INT64_C(1) << 40);
+    return true;
+}

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "matcher.hpp"
+#include "disparity_samples.hpp"
 
 namespace fixtures {
 namespace {

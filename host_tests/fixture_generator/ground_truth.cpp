@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "matcher.hpp"
+#include "disparity_samples.hpp"
 
 namespace fixtures {
 namespace {

@@ -23,6 +23,7 @@ inline double lattice_value(std::int32_t x, std::int32_t y, std::uint32_t seed) 
     return h * (1.0 / 4294967296.0);
 }
 
+// Never draw twice in the arguments of one call: their order is the compiler's choice.
 // Linear congruential generator over 64 bits; the upper half goes through mix() because low LCG bits are poor.
 class Lcg {
 public:
@@ -39,7 +40,11 @@ public:
     }
     bool chance(double probability) { return uniform() < probability; }
     // Sum of four uniforms: near enough to a Gaussian for sensor noise, and exact in its bits everywhere.
-    double normal() { return (uniform() + uniform() + uniform() + uniform() - 2.0) * 1.7320508075688772; }
+    double normal() {
+        double sum = 0.0;
+        for (int i = 0; i < 4; ++i) sum += uniform();
+        return (sum - 2.0) * 1.7320508075688772;
+    }
 
 private:
     std::uint64_t state_;

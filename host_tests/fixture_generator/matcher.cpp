@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "disparity_samples.hpp"
+
 namespace fixtures {
 namespace {
 
@@ -23,11 +25,12 @@ cv::Ptr<cv::StereoMatcher> make_semi_global(int disparity_range) {
     return matcher;
 }
 
+// Strict on purpose: it keeps the sure matches only and so leaves a sparse map.
 cv::Ptr<cv::StereoMatcher> make_block(int disparity_range) {
-    auto matcher = cv::StereoBM::create(disparity_range, 15);
+    auto matcher = cv::StereoBM::create(disparity_range, 9);
     matcher->setPreFilterCap(31);
-    matcher->setTextureThreshold(10);
-    matcher->setUniquenessRatio(15);
+    matcher->setTextureThreshold(500);
+    matcher->setUniquenessRatio(25);
     matcher->setDisp12MaxDiff(1);
     matcher->setSpeckleWindowSize(50);
     matcher->setSpeckleRange(2);

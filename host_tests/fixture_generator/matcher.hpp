@@ -1,4 +1,4 @@
-// Disparity maps from OpenCV's own matchers, in the sample format of a recording.
+// Disparity maps from OpenCV's own matchers, as the 16-bit samples of a recording.
 #pragma once
 #include <opencv2/core.hpp>
 
@@ -6,8 +6,6 @@
 #include "rig.hpp"
 
 namespace fixtures {
-
-constexpr int disparity_scale = 256;  // sample = disparity in pixels × 256; 0 = no match
 
 enum class Matcher { semi_global, block };
 

@@ -50,7 +50,8 @@ Scene fence(Lcg& random) {
     Scene scene = nothing(random);
     const double distance = random.uniform(2.5, 5.0), pitch = random.uniform(0.11, 0.30);
     const double half_width = random.uniform(0.02, 0.05), yaw = random.uniform(-0.1, 0.1);
-    add_panel(scene, {random.uniform(25, 60), 0, 0}, {0.5, huge, huge}, 0.0, surface_texture(140, 1.0, random));
+    const double background = random.uniform(25, 60);
+    add_panel(scene, {background, 0, 0}, {0.5, huge, huge}, 0.0, surface_texture(140, 1.0, random));
     const Texture paint = surface_texture(random.uniform(50, 90), 0.8, random);
     for (double y = -1.2 * distance; y < 1.2 * distance; y += pitch) {
         Texture bar = paint;
@@ -64,11 +65,12 @@ Scene fence(Lcg& random) {
 
 Scene lorry_back(Lcg& random) {
     Scene scene = nothing(random);
-    Texture door = surface_texture(random.uniform(110, 190), random.uniform(0.35, 0.8), random);
+    const double grey = random.uniform(110, 190), contrast = random.uniform(0.35, 0.8);
+    Texture door = surface_texture(grey, contrast, random);
     door.pattern = Pattern::vehicle_rear;
-    const double distance = random.uniform(1.8, 3.5);
+    const double distance = random.uniform(1.8, 3.5), aside = random.uniform(-0.3, 0.3), yaw = random.uniform(-0.03, 0.03);
     // As wide as the view at this distance: nothing else is to be seen, as in a queue with the bumper against it.
-    add_panel(scene, {distance + 4, random.uniform(-0.3, 0.3), 1.5}, {4, distance, 0.8 * distance}, random.uniform(-0.03, 0.03), door);
+    add_panel(scene, {distance + 4, aside, 1.5}, {4, distance, 0.8 * distance}, yaw, door);
     add_panel(scene, {distance - 0.06, 0, 1.5 - 0.3 * distance}, {0.05, distance, 0.08}, 0.0, surface_texture(60, 0.8, random));
     return scene;
 }

@@ -1,11 +1,12 @@
 #include "recording.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 #include <vector>
 
-#include "matcher.hpp"
+#include "disparity_samples.hpp"
 
 namespace fixtures {
 namespace {

@@ -1,6 +1,7 @@
 #include "recording_sets.hpp"
 
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "degradation.hpp"
@@ -41,7 +42,7 @@ FrameRecipe level(const FrameIndex& index) {
     Lcg layout(index.recording_seed), random(index.frame_seed());
     Pose pose;
     pose.pitch = radians(1.0) + uniform_angle(random, -0.6, 0.6);
-    pose.position = {1.1 * index.frame, 0.1, 1.5 + random.uniform(-0.01, 0.01)};
+    pose.position = {1.1 * index.frame, 0.1, 1.4 + random.uniform(-0.01, 0.01)};
     return recipe_of(street({}, layout), pose, "street", index);
 }
 
@@ -51,7 +52,7 @@ struct SpeedBump {
 
 // The body is a rigid bar on two axles, the camera rides 0.8 m behind the front one.
 Pose pose_over_bump(const RoadSurface& road, double front_axle) {
-    constexpr double wheelbase = 2.7, behind_front = 0.8, mount_height = 1.45;
+    constexpr double wheelbase = 2.7, behind_front = 0.8, mount_height = 1.4;
     const double front = road.elevation(front_axle, 0.0), rear = road.elevation(front_axle - wheelbase, 0.0);
     const double nose_up = std::atan2(front - rear, wheelbase);
     Pose pose;
@@ -92,7 +93,7 @@ FrameRecipe weak_texture(const FrameIndex& index) {
     Lcg random(index.frame_seed());
     const Pose pose = random_pose(random, 4.0);
     StreetStyle style;
-    style.road_contrast = random.uniform(0.10, 0.20);
+    style.road_contrast = random.uniform(0.13, 0.24);
     style.markings = random.chance(0.5);
     FrameRecipe recipe = recipe_of(street(style, random), pose, "weak-texture", index);
     recipe.noise.standard_deviation = 1.5;
@@ -102,7 +103,9 @@ FrameRecipe weak_texture(const FrameIndex& index) {
 FrameRecipe block_matcher(const FrameIndex& index) {
     Lcg random(index.frame_seed());
     const Pose pose = random_pose(random, 4.0);
-    return recipe_of(street({}, random), pose, "street", index);
+    StreetStyle style;
+    style.road_contrast = random.uniform(0.25, 0.45);
+    return recipe_of(street(style, random), pose, "street", index);
 }
 
 // The right lane of a road that falls 0.8–1.4° to the gutter; the car keeps almost level.

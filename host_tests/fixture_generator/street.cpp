@@ -1,5 +1,6 @@
 #include "street.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fixtures {
@@ -38,9 +39,10 @@ void add_facades(Scene& scene, const StreetStyle& style, Lcg& random) {
             x += length + gap;
         }
     }
-    const double closing = random.uniform(70, 200);
-    if (random.chance(0.6)) add_box(scene, {closing, -60, -1}, {closing + 10, 60, random.uniform(8, 20)},
-                                    surface_texture(random.uniform(90, 150), 1.0, random));
+    if (!random.chance(0.6)) return;
+    const double end_of_street = random.uniform(70, 200), height = random.uniform(8, 20);
+    add_box(scene, {end_of_street, -60, -1}, {end_of_street + 10, 60, height},
+            surface_texture(random.uniform(90, 150), 1.0, random));
 }
 
 void add_trees_and_poles(Scene& scene, const StreetStyle& style, Lcg& random) {
@@ -70,8 +72,9 @@ void add_parked(Scene& scene, const StreetStyle& style, Lcg& random) {
 
 void add_heavy_traffic(Scene& scene, Lcg& random) {
     const double ahead = random.uniform(8, 14);  // middle of the vehicle in our lane: its rear is 6–12 m ahead
-    if (random.chance(0.5)) add_lorry(scene, ahead + 3, random.uniform(-0.3, 0.3), random.uniform(-0.02, 0.02), random);
-    else add_car(scene, ahead, random.uniform(-0.4, 0.4), random.uniform(-0.05, 0.05), random);
+    const double aside = random.uniform(-0.4, 0.4), turned = random.uniform(-0.03, 0.03);
+    if (random.chance(0.5)) add_lorry(scene, ahead + 3, aside, turned, random);
+    else add_car(scene, ahead, aside, turned, random);
     for (const double lane : {-3.3, 3.3})
         for (double x = random.uniform(3, 9); x < 45; x += random.uniform(6, 9.5)) {
             const double y = lane + random.uniform(-0.3, 0.3), yaw = random.uniform(-0.06, 0.06);
@@ -81,8 +84,14 @@ void add_heavy_traffic(Scene& scene, Lcg& random) {
     for (double x = ahead + 9; x < 50; x += random.uniform(7, 11)) add_car(scene, x, random.uniform(-0.3, 0.3), 0.0, random);
 }
 
+void add_car_ahead(Scene& scene, const StreetStyle& style, Lcg& random) {
+    const double x = style.vehicle_ahead_nearest + random.uniform(2, 14), y = random.uniform(-0.5, 0.5);
+    add_car(scene, x, y, 0.0, random);
+}
+
 Texture asphalt(const StreetStyle& style, Lcg& random) {
-    Texture texture = surface_texture(random.uniform(80, 110), style.road_contrast * random.uniform(0.75, 1.0), random);
+    const double grey = random.uniform(80, 110), contrast = style.road_contrast * random.uniform(0.85, 1.1);
+    Texture texture = surface_texture(grey, contrast, random);
     if (style.markings) texture.pattern = Pattern::lane_markings;
     texture.marking_offset = random.uniform(1.6, 1.9);
     return texture;
@@ -101,7 +110,8 @@ Texture surface_texture(double base_grey, double contrast, Lcg& random) {
 void add_car(Scene& scene, double x, double y, double yaw, Lcg& random) {
     const double length = random.uniform(3.8, 4.7), width = random.uniform(1.65, 1.85), base = scene.road.elevation(x, y);
     const double bonnet_top = random.uniform(0.8, 1.0), roof = random.uniform(1.4, 1.7);
-    const Texture paint = surface_texture(random.uniform(50, 200), random.uniform(0.4, 1.0), random);
+    const double paint_grey = random.uniform(50, 200), paint_contrast = random.uniform(0.4, 1.0);
+    const Texture paint = surface_texture(paint_grey, paint_contrast, random);
     const Texture glass = surface_texture(random.uniform(40, 80), 0.7, random);
     add_turned_box(scene, {x, y, base + 0.5 * (0.2 + bonnet_top)}, {length / 2, width / 2, 0.5 * (bonnet_top - 0.2)}, yaw, paint);
     add_turned_box(scene, {x - 0.2, y, base + 0.5 * (bonnet_top + roof)},
@@ -137,8 +147,7 @@ Scene street(const StreetStyle& style, Lcg& random) {
     add_trees_and_poles(scene, style, random);
     add_parked(scene, style, random);
     if (style.heavy_traffic) add_heavy_traffic(scene, random);
-    else if (random.chance(style.vehicle_ahead_share))
-        add_car(scene, style.vehicle_ahead_nearest + random.uniform(2, 14), random.uniform(-0.5, 0.5), 0.0, random);
+    else if (random.chance(style.vehicle_ahead_share)) add_car_ahead(scene, style, random);
     return scene;
 }
 

@@ -59,6 +59,6 @@ run_tests() {
 install_packages
 sh "$root/host_tests/cmake/unity_from_debian.sh" "$build/unity"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DROADPOSE_HOST_TESTS=ON -DROADPOSE_PORTS=ON \
-    -DROADPOSE_UNITY_DIR="$build/unity"
+    -DROADPOSE_UNITY_DIR="$build/unity/src"
 cmake --build "$build"
 run_tests --no-tests=error "$@"

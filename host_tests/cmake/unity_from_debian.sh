@@ -1,11 +1,11 @@
 #!/bin/sh
-# Puts the Unity test framework into the folder $1 from Debian's archive: the source package cjson carries it.
+# Puts the Unity test framework into $1/src from Debian's archive: the source package cjson carries it.
 # Leaves apt's own configuration alone: the source entry lives in a folder of its own.
 set -eu
 
 folder=$1
-[ ! -f "$folder/unity.c" ] || exit 0
-mkdir -p "$folder"
+[ ! -f "$folder/src/unity.c" ] || exit 0
+mkdir -p "$folder/src" "$folder/examples"
 folder=$(cd "$folder" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -25,5 +25,6 @@ cd "$work"
 own_apt update
 own_apt source --download-only cjson
 tar -xzf cjson_*.orig.tar.gz
-cp cJSON-*/tests/unity/src/unity.c cJSON-*/tests/unity/src/unity.h cJSON-*/tests/unity/src/unity_internals.h "$folder/"
-echo "Unity for the tests is in $folder"
+cp cJSON-*/tests/unity/examples/unity_config.h "$folder/examples/" # this copy of Unity includes it
+cp cJSON-*/tests/unity/src/unity.h cJSON-*/tests/unity/src/unity_internals.h cJSON-*/tests/unity/src/unity.c "$folder/src/"
+echo "Unity for the tests is in $folder/src"

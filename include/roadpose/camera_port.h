@@ -93,10 +93,10 @@ typedef struct {
     uint32_t ready; /* set last by init */
     roadpose_camera_platform_t platform;
     roadpose_t *instance;
-    bool is_full;                    /* the mailbox: both sides, under the lock */
-    roadpose_camera_frame_t mailbox; /* both sides, under the lock */
-    bool is_working;                 /* the task's */
-    roadpose_camera_frame_t work;    /* the task's */
+    bool is_full;                        /* the mailbox: both sides, under the lock */
+    roadpose_camera_frame_t mailbox;     /* both sides, under the lock */
+    bool is_working;                     /* the task's */
+    roadpose_camera_frame_t work;        /* the task's */
     roadpose_camera_counters_t counters; /* ready and displaced are the interrupt's, the others the task's */
 } roadpose_camera_port_t;
 

@@ -13,7 +13,8 @@ typedef struct {
     bool is_exact;  /* nothing was rounded off */
 } decimal_t;
 
-/* Reads the whole of text as [sign] digits [. digits] [e exponent]. False, with *number unchanged, if it is not that. */
+/* Reads the whole of text as [sign] digits [. digits] [e exponent]. False, with *number unchanged, if it is not that.
+ */
 bool decimal_parse(const char *text, int places, decimal_t *number);
 
 /* Prints scaled / 10^places with exactly that many places (0...9); zero never has a sign. */

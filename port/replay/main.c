@@ -63,8 +63,8 @@ static bool expose(replay_t *replay, size_t index, const char *path) {
         return false;
     if (replay->rig_file.is_rescaled)
         rescale(replay->camera.samples, &replay->rig_file);
-    replay->camera.is_lent = roadpose_camera_frame_ready(&replay->port, &frame,
-                                                         recording_frame_number(&replay->recording, index), time_us);
+    replay->camera.is_lent =
+        roadpose_camera_frame_ready(&replay->port, &frame, recording_frame_number(&replay->recording, index), time_us);
     return replay->camera.is_lent || fault(path, "the camera port does not take the frame");
 }
 
@@ -110,8 +110,8 @@ static bool set_up(replay_t *replay) {
         return false;
     if (!recording_open(&replay->recording, replay->options.recording))
         return false;
-    result = roadpose_init(&replay->estimator, &replay->rig_file.rig, &replay->rig_file.format,
-                           &replay->options.settings);
+    result =
+        roadpose_init(&replay->estimator, &replay->rig_file.rig, &replay->rig_file.format, &replay->options.settings);
     if (result == ROADPOSE_OK)
         result = roadpose_camera_init(&replay->port, &platform, &replay->estimator);
     return result == ROADPOSE_OK || fault(path, "the estimator refuses the rig (result %d)", (int)result);

@@ -34,10 +34,8 @@ static const struct {
     int64_t least;
     int64_t most;
 } numbers[NUMBER_COUNT] = {
-    [NUMBER_METHOD] = {"--method", 0, false, 1, 2},
-    [NUMBER_CORRIDOR] = {"--corridor", 3, true, 500, 100000},
-    [NUMBER_RANGE] = {"--range", 3, true, 5000, 500000},
-    [NUMBER_POINTS] = {"--points", 0, false, 1, 100},
+    [NUMBER_METHOD] = {"--method", 0, false, 1, 2},      [NUMBER_CORRIDOR] = {"--corridor", 3, true, 500, 100000},
+    [NUMBER_RANGE] = {"--range", 3, true, 5000, 500000}, [NUMBER_POINTS] = {"--points", 0, false, 1, 100},
     [NUMBER_SEED] = {"--seed", 0, false, 0, UINT32_MAX},
 };
 

@@ -64,8 +64,8 @@ static bool check_header(const header_t *header, uint16_t width_px, uint16_t hei
     if (header->maxval != 65535)
         return fault(path, "maxval is %ld, not 65535", header->maxval);
     if (header->width != width_px || header->height != height_px)
-        return fault(path, "the frame is %ld x %ld, the rig %u x %u", header->width, header->height,
-                     (unsigned)width_px, (unsigned)height_px);
+        return fault(path, "the frame is %ld x %ld, the rig %u x %u", header->width, header->height, (unsigned)width_px,
+                     (unsigned)height_px);
     return true;
 }
 

@@ -80,6 +80,7 @@ static void free_map_slice(roadpose_t *instance) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
         roadpose_points_clear(&instance->points);
+        roadpose_levels_open_all(instance->level_open);
         roadpose_enter(instance, PHASE_V_DISPARITY);
     }
 }
@@ -100,9 +101,9 @@ static void v_disparity_slice(roadpose_t *instance) {
 }
 
 /* Adds the rows of one slice to the moments. Returns false when the plane is none. */
-static bool look_at_points(roadpose_t *instance, int32_t band_q8, uint16_t end) {
+static bool look_at_points(roadpose_t *instance, uint8_t round, uint16_t end) {
     roadpose_road_rule_t rule;
-    if (!roadpose_road_rule(&rule, &instance->plane, &instance->grid, &instance->settings, band_q8)) {
+    if (!roadpose_road_rule(&rule, &instance->plane, &instance->grid, &instance->settings, round)) {
         return false;
     }
     if (instance->cursor == 0u) {
@@ -110,7 +111,7 @@ static bool look_at_points(roadpose_t *instance, int32_t band_q8, uint16_t end) 
     }
     for (uint16_t row = instance->cursor; row < end; row++) {
         roadpose_moments_add_row(&instance->moments, &instance->points, &instance->plane, &rule, &instance->grid,
-                                 (int16_t)row);
+                                 instance->level_open, (int16_t)row);
     }
     instance->cursor = end;
     return true;
@@ -118,8 +119,7 @@ static bool look_at_points(roadpose_t *instance, int32_t band_q8, uint16_t end) 
 
 static void refine_slice(roadpose_t *instance) {
     const uint16_t end = rows_end(instance);
-    const int32_t band_q8 = roadpose_refine_band_q8(instance->round, &instance->settings);
-    if (!look_at_points(instance, band_q8, end)) {
+    if (!look_at_points(instance, instance->round, end)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
         return;
     }
@@ -130,6 +130,7 @@ static void refine_slice(roadpose_t *instance) {
         roadpose_finish(instance, ROADPOSE_STATUS_LITTLE_SUPPORT);
         return;
     }
+    roadpose_levels_judge(instance->level_open, &instance->moments, &instance->settings);
     instance->cursor = 0;
     instance->round++;
     if (instance->round == ROADPOSE_REFINE_ROUNDS) {
@@ -141,7 +142,7 @@ static void assess_slice(roadpose_t *instance) {
     const uint16_t end = rows_end(instance);
     /* a plane that was not refined is held against the first, widest band */
     const uint8_t round = instance->settings.refine ? ROADPOSE_REFINE_ROUNDS : 0u;
-    if (!look_at_points(instance, roadpose_refine_band_q8(round, &instance->settings), end)) {
+    if (!look_at_points(instance, round, end)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else if (end == instance->grid.rows) {
         roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,

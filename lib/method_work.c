@@ -1,6 +1,6 @@
 #include "method_work.h"
 
-#include "fixed_point/fixed_point.h"
+#include "disparity/ground_range.h"
 #include "road/acceptance.h"
 #include "road/plane_ransac.h"
 #include "road/road_profile.h"
@@ -8,7 +8,8 @@
 
 /* Tries of a pair that cost what ROADPOSE_SLICE_SAMPLES samples cost. */
 #define PAIR_TRIES_A_SLICE 128u
-#define FIT_ROUNDS 2u
+#define PROFILE_FIT_ROUNDS 3u
+#define INTERCEPT_FIT_ROUNDS 2u
 
 /* Fewer pairs, or fewer that agree, are no road. */
 #define PAIRS_MIN 16u
@@ -49,12 +50,14 @@ static void profile_slice(roadpose_t *instance) {
 }
 
 static void profile_fit_slice(roadpose_t *instance) {
-    if (!roadpose_profile_fit(&instance->v_disparity, &instance->grid, &instance->plane)) {
+    const int32_t first_level = roadpose_range_min_q8(&instance->grid, &instance->settings) / 256;
+    const int32_t width = (instance->round == 0u) ? 2 : 1; /* levels on either side: first what the hypothesis asks */
+    if (!roadpose_profile_fit(&instance->v_disparity, &instance->grid, first_level, width, &instance->plane)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
         return;
     }
     instance->round++;
-    if (instance->round == FIT_ROUNDS) {
+    if (instance->round == PROFILE_FIT_ROUNDS) {
         method_done(instance, false);
     }
 }
@@ -141,7 +144,7 @@ static void intercept_fit_slice(roadpose_t *instance) {
         return;
     }
     instance->round++;
-    if (instance->round == FIT_ROUNDS) {
+    if (instance->round == INTERCEPT_FIT_ROUNDS) {
         method_done(instance, true);
     }
 }
@@ -181,9 +184,9 @@ void roadpose_method_slice(roadpose_t *instance) {
 }
 
 uint32_t roadpose_method_slices_max(void) {
-    const uint32_t profile = ROADPOSE_PROFILE_HYPOTHESES + FIT_ROUNDS;
+    const uint32_t profile = ROADPOSE_PROFILE_HYPOTHESES + PROFILE_FIT_ROUNDS;
     const uint32_t sort = 2u * (ROADPOSE_MAX_POINTS / ROADPOSE_SLICE_SAMPLES + 1u) + 1u;
     const uint32_t cloud = sort + ROADPOSE_PAIR_TRIES / PAIR_TRIES_A_SLICE + ROADPOSE_SLOPE_HYPOTHESES + 1u +
-                           ROADPOSE_INTERCEPT_HYPOTHESES + FIT_ROUNDS;
+                           ROADPOSE_INTERCEPT_HYPOTHESES + INTERCEPT_FIT_ROUNDS;
     return (profile > cloud) ? profile : cloud;
 }

@@ -78,6 +78,8 @@ typedef struct {
     uint16_t order[ROADPOSE_MAX_POINTS];      /* points used, by rising disparity */
     uint16_t bucket[ROADPOSE_SORT_LEVELS + 1];
     uint16_t used;                            /* entries of order */
+    uint8_t first_octave;                     /* of the sort levels in use: level 2^k...2^(k+1) - 1 is octave k */
+    uint8_t last_octave;
     uint16_t pairs;
     int16_t dx[ROADPOSE_MAX_PAIRS];           /* grid columns from the first to the second point */
     int16_t dy[ROADPOSE_MAX_PAIRS];           /* grid rows */
@@ -89,8 +91,14 @@ typedef struct {
 /* Sums of a least-squares step over the road points, and what the acceptance needs. */
 typedef struct {
     int64_t n, x, y, xx, xy, yy, r, xr, yr, rr;
-    uint32_t on_road, above, below;
-    uint16_t level_count[ROADPOSE_MAX_DISPARITY];
+    uint32_t on_road; /* points that count */
+    uint32_t uneven;  /* near the plane, but at a distance where most of the corridor is not on it */
+    uint32_t above;   /* nearer to the camera than the plane */
+    uint32_t below;   /* farther than the plane, which should hide them */
+    uint16_t level_road[ROADPOSE_MAX_DISPARITY]; /* points that count, by the plane's disparity */
+    uint16_t level_near[ROADPOSE_MAX_DISPARITY]; /* points near the plane, */
+    uint16_t level_on[ROADPOSE_MAX_DISPARITY];   /* and of those the ones within the noise band, */
+    int32_t level_r[ROADPOSE_MAX_DISPARITY];     /* whose residuals add up to this */
 } roadpose_moments_t;
 
 typedef struct {
@@ -113,6 +121,7 @@ typedef struct {
     bool roll_observed;
     roadpose_plane_t plane;
     roadpose_moments_t moments;
+    uint32_t level_open[ROADPOSE_MAX_DISPARITY / 32]; /* one bit for each distance that may count */
     uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */
     roadpose_free_map_t free_map;
     roadpose_v_disparity_t v_disparity;

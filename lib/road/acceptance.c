@@ -24,16 +24,16 @@ void roadpose_refuse(roadpose_pose_t *pose, roadpose_status_t status) {
 /* Walks from one end of the levels until `share` points are passed. on_road >= 1, so it ends within the levels. */
 static int32_t level_after(const roadpose_moments_t *moments, int32_t level, int32_t step) {
     const uint32_t share = moments->on_road / RANGE_SHARE + 1u;
-    uint32_t passed = moments->level_count[level];
+    uint32_t passed = moments->level_road[level];
     while (passed < share) {
         level += step;
-        passed += moments->level_count[level];
+        passed += moments->level_road[level];
     }
     return level;
 }
 
 static void fill_support(roadpose_pose_t *pose, const roadpose_moments_t *moments, const roadpose_grid_t *grid) {
-    const uint32_t all = moments->on_road + moments->above + moments->below; /* <= ROADPOSE_MAX_POINTS */
+    const uint32_t all = moments->on_road + moments->uneven + moments->above + moments->below; /* <= ROADPOSE_MAX_POINTS */
     pose->road_points = moments->on_road;
     if (moments->on_road == 0u) {
         return;

@@ -6,9 +6,16 @@
 #include "fixed_point/fixed_point.h"
 #include "road/ground_plane.h"
 
-/* Wider first: the method before is right to a tenth of a degree. Q8 pixels; the last rounds use the setting. */
+/* Wider first: the method before is right to some tenths of a degree. Q8 pixels; then the setting. */
 #define FIRST_ROUNDS 3
-static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {512, 384, 256};
+static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
+
+/* From this round on the band widens by the unevenness of the road. Before, it would let a speed bump in. */
+#define UNEVEN_ROUND 5
+
+/* The mean residual of a distance may be this share of the noise band: the mean of many points is that much better
+ * known than one point. Without it the plane creeps up the foot of a speed bump. */
+#define LEVEL_OFFSET_SHARE 3
 
 /* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
 #define BAND_LIMIT_Q8 1023
@@ -22,7 +29,7 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {512, 384, 256};
 
 #define NO_LIMIT_Q12 (INT64_C(1) << 30)
 
-int32_t roadpose_refine_band_q8(uint8_t round, const roadpose_settings_t *settings) {
+static int32_t noise_band_q8(uint8_t round, const roadpose_settings_t *settings) {
     const int32_t last = settings->noise_millipx * 256 / 1000;
     if (round >= FIRST_ROUNDS || FIRST_BANDS_Q8[round] < last) {
         return last;
@@ -30,10 +37,10 @@ int32_t roadpose_refine_band_q8(uint8_t round, const roadpose_settings_t *settin
     return FIRST_BANDS_Q8[round];
 }
 
-/* A road point's X is f B ... in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
+/* A road point's X in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
  * straight below it has X = n_x h = B a / k^2, and sideways along the road is X / sqrt(1 - n_x^2). */
 bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
-                        const roadpose_settings_t *settings, int32_t band_q8) {
+                        const roadpose_settings_t *settings, uint8_t round) {
     roadpose_pixel_plane_t pixels;
     if (!roadpose_plane_to_pixels(plane, grid, &pixels)) {
         return false;
@@ -49,11 +56,37 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 9 / 8;
     rule->half_inner_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 7 / 8;
     rule->range_min_q8 = roadpose_range_min_q8(grid, settings);
-    rule->band_q8 = band_q8;
+    rule->noise_q8 = noise_band_q8(round, settings);
     /* unevenness / height = unevenness * k / B; <= 200 000 um * 2^28 / 20 000: the ratio is clamped to 1 */
     const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
-    rule->unevenness_q16 = (int32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
+    rule->unevenness_q16 =
+        (round < UNEVEN_ROUND) ? 0 : (int32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
     return true;
+}
+
+void roadpose_levels_open_all(uint32_t *level_open) {
+    memset(level_open, 0xFF, ROADPOSE_MAX_DISPARITY / 8);
+}
+
+/* Do the points at this distance lie on the plane, most of them and on average? |r| < 2^10 and at most 2^14 points. */
+static bool level_agrees(const roadpose_moments_t *moments, unsigned level, int32_t offset_max_q8) {
+    const int32_t on = moments->level_on[level];
+    const int32_t sum = moments->level_r[level];
+    const int32_t limit = on * offset_max_q8;
+    return 2 * on >= (int32_t)moments->level_near[level] && sum <= limit && sum >= -limit;
+}
+
+void roadpose_levels_judge(uint32_t *level_open, const roadpose_moments_t *moments,
+                           const roadpose_settings_t *settings) {
+    const int32_t offset_max_q8 = settings->noise_millipx * 256 / 1000 / LEVEL_OFFSET_SHARE;
+    for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
+        const uint32_t bit = UINT32_C(1) << (level & 31u);
+        if (level_agrees(moments, level, offset_max_q8)) {
+            level_open[level >> 5] |= bit;
+        } else {
+            level_open[level >> 5] &= ~bit;
+        }
+    }
 }
 
 void roadpose_moments_clear(roadpose_moments_t *moments) {
@@ -99,14 +132,37 @@ static void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
     sums->rr += (uint32_t)(weight * r * r);
 }
 
-static int32_t band_at(const roadpose_road_rule_t *rule, int32_t p_q8) {
-    const int32_t band = rule->band_q8 + (int32_t)(((int64_t)p_q8 * rule->unevenness_q16) >> 16);
-    return (band < BAND_LIMIT_Q8) ? band : BAND_LIMIT_Q8;
+/* Where a point of the corridor lies: counts it, and returns whether it takes part in the least squares.
+ * r: residual; p: the plane's disparity there, in 1...ROADPOSE_MAX_DISPARITY * 256 - 1. */
+static bool sort_point(roadpose_moments_t *moments, const roadpose_road_rule_t *rule, const uint32_t *level_open,
+                       int32_t r, int32_t p) {
+    const unsigned level = (unsigned)p >> 8;
+    const int32_t distance = (r < 0) ? -r : r;
+    const int32_t band = rule->noise_q8 + (int32_t)(((int64_t)p * rule->unevenness_q16) >> 16);
+    if (distance <= BAND_LIMIT_Q8) {
+        moments->level_near[level]++;
+        if (distance <= rule->noise_q8) {
+            moments->level_on[level]++;
+            moments->level_r[level] += r;
+        }
+        if (((level_open[level >> 5] >> (level & 31u)) & 1u) == 0u) {
+            moments->uneven++;
+            return false;
+        }
+        if (distance <= band) {
+            moments->on_road++;
+            moments->level_road[level]++;
+            return true;
+        }
+    }
+    moments->above += (r > 0) ? 1u : 0u;
+    moments->below += (r < 0) ? 1u : 0u;
+    return false;
 }
 
 void roadpose_moments_add_row(roadpose_moments_t *moments, const roadpose_points_t *points,
                               const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
-                              const roadpose_grid_t *grid, int16_t row) {
+                              const roadpose_grid_t *grid, const uint32_t *level_open, int16_t row) {
     const int32_t y = row - grid->row_0;
     /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 makes the floor below round to nearest */
     const int64_t base_q24 = (int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15);
@@ -121,18 +177,8 @@ void roadpose_moments_add_row(roadpose_moments_t *moments, const roadpose_points
         const int32_t p = (int32_t)p_wide;
         const int32_t weight = corridor_weight(rule, (int64_t)x * (ROADPOSE_COLUMN_STEP * 4096) + du_q12, p);
         const int32_t r = points->disparity_q8[i] - p;
-        const int32_t band = band_at(rule, p);
-        if (weight == 0) {
-            continue;
-        }
-        if (r > band) {
-            moments->above++;
-        } else if (r < -band) {
-            moments->below++;
-        } else {
+        if (weight != 0 && sort_point(moments, rule, level_open, r, p)) {
             add_point(&sums, weight, x, r);
-            moments->on_road++;
-            moments->level_count[p >> 8]++;
         }
     }
     row_sums_flush(moments, &sums, y);

@@ -4,7 +4,6 @@
 
 /* A cell of level D holds disparities D...D + 1: its middle, in Q24. */
 #define LEVEL_Q24(level) (((int64_t)(level) << 24) + (INT64_C(1) << 23))
-#define FIT_LEVELS 2
 
 /* Draws a level of a row with the probability of its count. Returns -1 for an empty row. */
 static int32_t draw_level(const roadpose_count_t *count, uint32_t *random) {
@@ -77,13 +76,14 @@ typedef struct {
     int64_t n, y, yy, r, yr;
 } profile_sums_t;
 
-static void add_row(profile_sums_t *sums, const roadpose_count_t *count, const roadpose_plane_t *line, int32_t y) {
+static void add_row(profile_sums_t *sums, const roadpose_count_t *count, const roadpose_plane_t *line, int32_t y,
+                    int32_t first_level, int32_t width) {
     const int64_t at_q8 = roadpose_floor_shift((int64_t)line->b_q24 * y + line->c_q24, 16);
     const int32_t middle = predicted_level(line, y);
-    if (middle < FIT_LEVELS || middle + FIT_LEVELS >= ROADPOSE_MAX_DISPARITY) {
+    if (middle - width < first_level || middle + width >= ROADPOSE_MAX_DISPARITY) {
         return; /* a band cut off on one side would pull the line */
     }
-    for (int32_t level = middle - FIT_LEVELS; level <= middle + FIT_LEVELS; level++) {
+    for (int32_t level = middle - width; level <= middle + width; level++) {
         const int64_t n = count[level];
         const int64_t r = (int64_t)level * 256 + 128 - at_q8;
         sums->n += n;
@@ -94,11 +94,11 @@ static void add_row(profile_sums_t *sums, const roadpose_count_t *count, const r
     }
 }
 
-bool roadpose_profile_fit(const roadpose_v_disparity_t *histogram, const roadpose_grid_t *grid,
-                          roadpose_plane_t *line) {
+bool roadpose_profile_fit(const roadpose_v_disparity_t *histogram, const roadpose_grid_t *grid, int32_t first_level,
+                          int32_t width, roadpose_plane_t *line) {
     profile_sums_t s = {0, 0, 0, 0, 0};
     for (int16_t row = 0; row < grid->rows; row++) {
-        add_row(&s, histogram->count[row], line, row - grid->row_0);
+        add_row(&s, histogram->count[row], line, row - grid->row_0, first_level, width);
     }
     /* n * yy < 2^20 * 2^40; for the ratio the denominator must be below 2^62 */
     const int64_t spread = s.n * s.yy - s.y * s.y;

@@ -13,9 +13,9 @@ void roadpose_profile_try(const roadpose_v_disparity_t *histogram, const roadpos
                           const roadpose_plane_box_t *box, uint32_t *random, roadpose_plane_t *best,
                           int32_t *best_score);
 
-/* Least squares of the line on the counts within two levels of it. Returns false when they do not tell a line.
- * Cost: 5 * rows cells. */
-bool roadpose_profile_fit(const roadpose_v_disparity_t *histogram, const roadpose_grid_t *grid,
-                          roadpose_plane_t *line);
+/* Least squares of the line on the counts within `width` levels of it, levels below first_level (beyond the corridor's
+ * range) left out. Returns false when they do not tell a line. Cost: (2 * width + 1) * rows cells. */
+bool roadpose_profile_fit(const roadpose_v_disparity_t *histogram, const roadpose_grid_t *grid, int32_t first_level,
+                          int32_t width, roadpose_plane_t *line);
 
 #endif

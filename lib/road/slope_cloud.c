@@ -9,10 +9,9 @@
 #define SIDEWAYS_MIN_PX 32
 /* "The same level": at most half a pixel apart. */
 #define LEVEL_WIDTH_Q8 128
-/* How far apart in the order of disparity two points of a pair may stand: few points reach further. */
-#define REACH_SHARE 256
-#define REACH_MIN 8
-#define REACH_MAX 64
+/* A partner is drawn from the neighbouring sort levels; the fewer points, the further around. Eighths of a pixel. */
+#define REACH_MAX 4
+#define PARTNERS_ENOUGH 16u
 
 void roadpose_cloud_clear(roadpose_cloud_t *cloud) {
     memset(cloud->bucket, 0, sizeof cloud->bucket);
@@ -34,7 +33,30 @@ void roadpose_cloud_count(roadpose_cloud_t *cloud, const roadpose_points_t *poin
     }
 }
 
+static uint8_t octave_of(unsigned sort_level) {
+    uint8_t octave = 0;
+    while ((sort_level >> octave) > 1u) {
+        octave++;
+    }
+    return octave;
+}
+
+/* Octaves of the sort levels that hold points: level 2^k...2^(k+1) - 1 is octave k. Levels 0 and 1 share the first. */
+static void find_octaves(roadpose_cloud_t *cloud) {
+    unsigned first = 0;
+    unsigned last = ROADPOSE_SORT_LEVELS - 1u;
+    while (first < last && cloud->bucket[first + 1u] == 0u) {
+        first++;
+    }
+    while (last > first && cloud->bucket[last + 1u] == 0u) {
+        last--;
+    }
+    cloud->first_octave = octave_of(first);
+    cloud->last_octave = octave_of(last);
+}
+
 void roadpose_cloud_places(roadpose_cloud_t *cloud) {
+    find_octaves(cloud);
     for (unsigned level = 0; level < ROADPOSE_SORT_LEVELS; level++) {
         cloud->bucket[level + 1u] = (uint16_t)(cloud->bucket[level + 1u] + cloud->bucket[level]);
     }
@@ -66,19 +88,40 @@ static void keep_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, 
     cloud->pairs = (uint16_t)(k + 1u);
 }
 
+/* First place of a sort level in cloud->order; placing has moved bucket[level] to the end of its level. */
+static uint32_t level_start(const roadpose_cloud_t *cloud, uint32_t level) {
+    return (level == 0u) ? 0u : cloud->bucket[level - 1u];
+}
+
+/* Every doubling of the distance counts the same: drawn point by point, the few metres before the car, which fill most
+ * of the image, would decide alone, and a speed bump there would pass for the road. */
+static uint32_t draw_sort_level(const roadpose_cloud_t *cloud, uint32_t *random) {
+    const uint32_t octaves = (uint32_t)cloud->last_octave - cloud->first_octave + 1u;
+    const uint32_t size = UINT32_C(1) << (cloud->first_octave + roadpose_lcg_below(random, octaves));
+    return size + roadpose_lcg_below(random, size);
+}
+
+/* Draws a point about as near in disparity as the first, wherever it stands in the image. */
+static uint16_t draw_partner(const roadpose_cloud_t *cloud, uint32_t level, uint32_t *random) {
+    uint32_t start = level_start(cloud, level);
+    uint32_t end = cloud->bucket[level];
+    for (uint32_t reach = 1; reach <= REACH_MAX && end - start < PARTNERS_ENOUGH; reach++) {
+        start = level_start(cloud, (level > reach) ? level - reach : 0u);
+        end = cloud->bucket[(level + reach < ROADPOSE_SORT_LEVELS) ? level + reach : ROADPOSE_SORT_LEVELS - 1u];
+    }
+    return cloud->order[start + roadpose_lcg_below(random, end - start)];
+}
+
 void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,
                              uint32_t *random) {
-    if (cloud->used < 2u || cloud->pairs >= ROADPOSE_MAX_PAIRS) {
+    const uint32_t level = draw_sort_level(cloud, random);
+    const uint32_t start = level_start(cloud, level);
+    const uint32_t count = cloud->bucket[level] - start;
+    if (count == 0u || cloud->pairs >= ROADPOSE_MAX_PAIRS) {
         return;
     }
-    const uint32_t reach = (uint32_t)roadpose_clamp(cloud->used / REACH_SHARE, REACH_MIN, REACH_MAX);
-    const uint32_t i = roadpose_lcg_below(random, cloud->used);
-    const uint32_t j = i + 1u + roadpose_lcg_below(random, reach);
-    if (j >= cloud->used) {
-        return;
-    }
-    const uint16_t first = cloud->order[i];
-    const uint16_t second = cloud->order[j];
+    const uint16_t first = cloud->order[start + roadpose_lcg_below(random, count)];
+    const uint16_t second = draw_partner(cloud, level, random);
     const int64_t apart = roadpose_abs(points->disparity_q8[first] - points->disparity_q8[second]);
     const int64_t sideways = roadpose_abs(points->column[first] - points->column[second]);
     if (apart <= LEVEL_WIDTH_Q8 && sideways * ROADPOSE_COLUMN_STEP >= SIDEWAYS_MIN_PX) {

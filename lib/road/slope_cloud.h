@@ -18,7 +18,7 @@ void roadpose_cloud_places(roadpose_cloud_t *cloud);
 void roadpose_cloud_place(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
                           uint8_t percent, uint32_t *thinning);
 
-/* Draws two points that are neighbours in disparity; keeps them as a pair where they lie far enough apart sideways. */
+/* Draws two points of nearly the same disparity; keeps them as a pair where they lie far enough apart sideways. */
 void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,
                              uint32_t *random);
 

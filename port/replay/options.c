@@ -77,14 +77,14 @@ static bool take_number(roadpose_settings_t *settings, number_t option, const ch
         return fault(NULL, "%s needs a number" HINT, numbers[option].name);
     if (!decimal_parse(text, numbers[option].places, &number))
         return fault(NULL, "%s '%.40s' is not a number" HINT, numbers[option].name, text);
-    if (numbers[option].places == 0 && !number.is_exact)
-        return fault(NULL, "%s %.40s is not a whole number" HINT, numbers[option].name, text);
     if (numbers[option].zero_is_no_limit && number.scaled == 0 && number.is_exact) {
         store(settings, option, 0);
         return true;
     }
     if (number.scaled < numbers[option].least || number.scaled > numbers[option].most)
         return refuse_range(option, text);
+    if (numbers[option].places == 0 && !number.is_exact)
+        return fault(NULL, "%s %.40s is not a whole number" HINT, numbers[option].name, text);
     store(settings, option, number.scaled);
     return true;
 }

@@ -97,11 +97,13 @@ static bool take_value(fields_t *read, const char *path, field_t field, const ch
         return fault(path, "%s: has no value", key);
     if (!decimal_parse(text, fields[field].places, &number))
         return fault(path, "%s: '%.40s' is not a number", key, text);
+    if (!check_range(path, field, text, number.scaled, fields[field].most))
+        return false;
     if (fields[field].places == 0 && !number.is_exact)
         return fault(path, "%s: %.40s is not a whole number", key, text);
     read->is_given[field] = true;
     read->value[field] = number.scaled;
-    return check_range(path, field, text, number.scaled, fields[field].most);
+    return true;
 }
 
 static field_t find_field(const char *key) {

@@ -21,9 +21,12 @@ static uint16_t at_most(uint32_t next, int16_t end) {
     return (uint16_t)((next < (uint32_t)end) ? next : (uint32_t)end);
 }
 
+static uint32_t rows_a_slice(const roadpose_t *instance) {
+    return ROADPOSE_SLICE_SAMPLES / (uint32_t)instance->grid.columns; /* columns <= 1024 */
+}
+
 static uint16_t rows_end(const roadpose_t *instance) {
-    const uint32_t rows = ROADPOSE_SLICE_SAMPLES / (uint32_t)instance->grid.columns; /* columns <= 1024 */
-    return at_most(instance->cursor + rows, instance->grid.rows);
+    return at_most(instance->cursor + rows_a_slice(instance), instance->grid.rows);
 }
 
 static uint16_t columns_end(const roadpose_t *instance, uint32_t share) {
@@ -80,7 +83,7 @@ static void free_map_slice(roadpose_t *instance) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
         roadpose_points_clear(&instance->points);
-        roadpose_levels_open_all(instance->level_open);
+        roadpose_levels_open(&instance->moments);
         roadpose_enter(instance, PHASE_V_DISPARITY);
     }
 }
@@ -101,7 +104,9 @@ static void v_disparity_slice(roadpose_t *instance) {
 }
 
 /* Adds the rows of one slice to the moments. Returns false when the plane is none. */
-static bool look_at_points(roadpose_t *instance, uint8_t round, uint16_t end) {
+static bool look_at_points(roadpose_t *instance, uint8_t round) {
+    const uint16_t step = roadpose_refine_row_step(round, instance->points.count);
+    const uint16_t end = at_most(instance->cursor + (uint32_t)step * rows_a_slice(instance), instance->grid.rows);
     roadpose_road_rule_t rule;
     if (!roadpose_road_rule(&rule, &instance->plane, &instance->grid, &instance->settings, round)) {
         return false;
@@ -109,28 +114,27 @@ static bool look_at_points(roadpose_t *instance, uint8_t round, uint16_t end) {
     if (instance->cursor == 0u) {
         roadpose_moments_clear(&instance->moments);
     }
-    for (uint16_t row = instance->cursor; row < end; row++) {
+    for (uint16_t row = instance->cursor; row < end; row = (uint16_t)(row + step)) {
         roadpose_moments_add_row(&instance->moments, &instance->points, &instance->plane, &rule, &instance->grid,
-                                 instance->level_open, (int16_t)row);
+                                 (int16_t)row);
     }
     instance->cursor = end;
     return true;
 }
 
 static void refine_slice(roadpose_t *instance) {
-    const uint16_t end = rows_end(instance);
-    if (!look_at_points(instance, instance->round, end)) {
+    if (!look_at_points(instance, instance->round)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
         return;
     }
-    if (end < instance->grid.rows) {
+    if (instance->cursor < (uint16_t)instance->grid.rows) {
         return;
     }
     if (!roadpose_refine_step(&instance->moments, &instance->plane, &instance->roll_observed)) {
         roadpose_finish(instance, ROADPOSE_STATUS_LITTLE_SUPPORT);
         return;
     }
-    roadpose_levels_judge(instance->level_open, &instance->moments, &instance->settings);
+    roadpose_levels_judge(&instance->moments, &instance->settings);
     instance->cursor = 0;
     instance->round++;
     if (instance->round == ROADPOSE_REFINE_ROUNDS) {
@@ -139,12 +143,11 @@ static void refine_slice(roadpose_t *instance) {
 }
 
 static void assess_slice(roadpose_t *instance) {
-    const uint16_t end = rows_end(instance);
     /* a plane that was not refined is held against the first, widest band */
     const uint8_t round = instance->settings.refine ? ROADPOSE_REFINE_ROUNDS : 0u;
-    if (!look_at_points(instance, round, end)) {
+    if (!look_at_points(instance, round)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
-    } else if (end == instance->grid.rows) {
+    } else if (instance->cursor == (uint16_t)instance->grid.rows) {
         roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,
                         instance->roll_observed);
         roadpose_enter(instance, PHASE_DONE);

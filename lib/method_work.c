@@ -114,7 +114,9 @@ static void slope_slice(roadpose_t *instance) {
 }
 
 static void slope_fit_slice(roadpose_t *instance) {
-    if (roadpose_slope_fit(&instance->work.cloud, &instance->slope_q16) < PAIRS_MIN) {
+    roadpose_plane_box_t box;
+    roadpose_plane_box(&box, &instance->grid, &instance->settings);
+    if (roadpose_slope_fit(&instance->work.cloud, &box, &instance->slope_q16) < PAIRS_MIN) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
         roadpose_enter(instance, PHASE_INTERCEPT);

@@ -4,7 +4,7 @@
  * (-DROADPOSE_MAX_WIDTH=1280) in the library AND in everything that includes its headers; the CMake target
  * `roadpose` passes the right ones on. A limit that cannot work stops the build with a message that says what to
  * change. The sampling steps change which pixels are read, so they change results; the other limits only change
- * what fits: a frame that fits two builds with the same steps and ROADPOSE_MAX_POINTS gives the same bits in both.
+ * what fits: a frame that fits two builds with the same steps, points and pairs gives the same bits in both.
  *
  * | limit                   | default | small profile | raise it when                                              |
  * |-------------------------|---------|---------------|------------------------------------------------------------|
@@ -14,6 +14,7 @@
  * | ROADPOSE_ROW_STEP       | 2       | 4             | lower it for more pixels, raise it for less memory, time   |
  * | ROADPOSE_COLUMN_STEP    | 4       | 8             | the same, for columns                                      |
  * | ROADPOSE_MAX_POINTS     | 8192    | 2048          | the road covers more samples and memory allows             |
+ * | ROADPOSE_MAX_PAIRS      | 512     | 512           | Method 2 without refinement is to be steadier              |
  */
 #ifndef ROADPOSE_LIMITS_H
 #define ROADPOSE_LIMITS_H
@@ -50,6 +51,10 @@
 #define ROADPOSE_MAX_POINTS ROADPOSE_DEFAULT_MAX_POINTS
 #endif
 
+#ifndef ROADPOSE_MAX_PAIRS
+#define ROADPOSE_MAX_PAIRS 512
+#endif
+
 #if ROADPOSE_MAX_WIDTH < 64 || ROADPOSE_MAX_WIDTH > 2048
 #error "roadpose: set ROADPOSE_MAX_WIDTH to 64...2048: the fixed-point ranges are proved up to 2048 columns"
 #endif
@@ -67,6 +72,10 @@
 #endif
 #if ROADPOSE_MAX_POINTS < 512 || ROADPOSE_MAX_POINTS > 16384
 #error "roadpose: set ROADPOSE_MAX_POINTS to 512...16384: the sums of the refinement are proved up to 16384 points"
+#endif
+
+#if ROADPOSE_MAX_PAIRS < 64 || ROADPOSE_MAX_PAIRS > 1024
+#error "roadpose: set ROADPOSE_MAX_PAIRS to 64...1024: one RANSAC hypothesis looks at all of them in one slice"
 #endif
 
 /* Size of the sampling grid: one sample for every ROW_STEP rows and COLUMN_STEP columns. */

@@ -11,22 +11,18 @@
 #include "roadpose/pose.h"
 #include "roadpose/rig.h"
 
-/* How to read one sample, prepared from the format once. */
+/* How to read one sample, prepared from the format once. All masks are in place within the sample. */
 typedef struct {
-    uint8_t first_byte_is_high; /* 1: big-endian */
-    uint8_t value_shift;
-    uint8_t up_shift;   /* value << up_shift >> down_shift is Q8 */
-    uint8_t down_shift;
-    uint16_t value_mask;
-    uint16_t sign_mask;
+    bool swap_bytes;          /* the samples' byte order is not the processor's */
+    uint16_t value_mask;      /* disparity field */
+    uint32_t value_scale;     /* (s & value_mask) * value_scale / 256 is the disparity in Q8 */
+    uint16_t sign_mask;       /* no match where it is set */
     uint16_t invalid_first;
-    uint16_t invalid_span; /* invalid when (uint16)(s - invalid_first) <= invalid_span and has_invalid */
-    uint8_t has_invalid;
-    uint8_t confidence_shift;
-    uint16_t confidence_mask; /* 0: none in the sample */
-    uint16_t confidence_min;
+    int32_t invalid_span;     /* no match where (uint16_t)(s - invalid_first) <= invalid_span; -1: never */
+    uint16_t confidence_mask; /* confidence field */
+    uint16_t confidence_min;  /* no match where (s & confidence_mask) < confidence_min; 0: never */
+    uint16_t image_confidence_min; /* the same for a sample of the confidence image */
     int32_t offset_q8;
-    int32_t limit_q8; /* disparities at or above it are no match */
 } roadpose_decoder_t;
 
 /* The rig on the sampling grid. Grid column i is pixel column i * COLUMN_STEP, grid row j pixel row j * ROW_STEP;
@@ -66,11 +62,10 @@ typedef struct {
 typedef struct {
     uint16_t count;
     uint16_t row_start[ROADPOSE_MAX_GRID_ROWS + 1]; /* points of row j: row_start[j]...row_start[j + 1] - 1 */
-    uint16_t column[ROADPOSE_MAX_POINTS];           /* grid column */
+    uint16_t column[ROADPOSE_MAX_POINTS];           /* grid column; in the two high bits the corridor's weight */
     uint16_t disparity_q8[ROADPOSE_MAX_POINTS];
 } roadpose_points_t;
 
-#define ROADPOSE_MAX_PAIRS 1024
 #define ROADPOSE_SORT_LEVELS (ROADPOSE_MAX_DISPARITY * 8) /* an eighth of a pixel each */
 
 /* Method 2, stage 1: pairs of points of one disparity level. */
@@ -85,20 +80,26 @@ typedef struct {
     int16_t dy[ROADPOSE_MAX_PAIRS];           /* grid rows */
     int16_t x_sum[ROADPOSE_MAX_PAIRS];        /* x of both added */
     int16_t y_sum[ROADPOSE_MAX_PAIRS];
-    uint16_t level_q8[ROADPOSE_MAX_PAIRS];    /* mean disparity; 0: rejected by the slope */
+    uint16_t level_q8[ROADPOSE_MAX_PAIRS];    /* mean disparity */
+    int32_t intercept_q9[ROADPOSE_MAX_PAIRS]; /* y - s x of the pair's middle, 2^-9 grid rows, once s is known */
 } roadpose_cloud_t;
+
+/* What lies near the plane at one distance, that is, where the plane's disparity has this whole part. */
+typedef struct {
+    bool open;     /* the points at this distance take part in the least squares */
+    uint16_t near; /* points within 4 px of the plane, */
+    uint16_t on;   /* of those the ones within the noise band, */
+    int32_t r;     /* and the sum of their residuals, Q8 */
+} roadpose_level_t;
 
 /* Sums of a least-squares step over the road points, and what the acceptance needs. */
 typedef struct {
-    int64_t n, x, y, xx, xy, yy, r, xr, yr, rr;
-    uint32_t on_road; /* points that count */
-    uint32_t uneven;  /* near the plane, but at a distance where most of the corridor is not on it */
+    int64_t n, x, y, xx, xy, yy, r, xr, yr, rr; /* weights, grid steps and residuals in Q8 pixels */
+    uint32_t on_road; /* points that take part */
+    uint32_t uneven;  /* near the plane, but at a distance that is closed */
     uint32_t above;   /* nearer to the camera than the plane */
     uint32_t below;   /* farther than the plane, which should hide them */
-    uint16_t level_road[ROADPOSE_MAX_DISPARITY]; /* points that count, by the plane's disparity */
-    uint16_t level_near[ROADPOSE_MAX_DISPARITY]; /* points near the plane, */
-    uint16_t level_on[ROADPOSE_MAX_DISPARITY];   /* and of those the ones within the noise band, */
-    int32_t level_r[ROADPOSE_MAX_DISPARITY];     /* whose residuals add up to this */
+    roadpose_level_t level[ROADPOSE_MAX_DISPARITY];
 } roadpose_moments_t;
 
 typedef struct {
@@ -121,7 +122,6 @@ typedef struct {
     bool roll_observed;
     roadpose_plane_t plane;
     roadpose_moments_t moments;
-    uint32_t level_open[ROADPOSE_MAX_DISPARITY / 32]; /* one bit for each distance that may count */
     uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */
     roadpose_free_map_t free_map;
     roadpose_v_disparity_t v_disparity;

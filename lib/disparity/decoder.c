@@ -1,15 +1,24 @@
 #include "disparity/decoder.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "fixed_point/fixed_point.h"
 
-#define Q8_BITS 8u
 #define OFFSET_MAX_MILLIPX 16000
 
 static bool processor_is_big_endian(void) {
     const uint16_t probe = 1;
     return *(const uint8_t *)&probe == 0u;
+}
+
+/* Smallest confidence in place; a threshold above what the field can say makes every sample "no match". */
+static uint16_t least_confidence(const roadpose_disparity_format_t *format, bool in_sample) {
+    if (!in_sample) {
+        return 0;
+    }
+    const uint32_t in_place = (uint32_t)format->confidence_min << format->confidence_shift;
+    return (uint16_t)((in_place > UINT16_MAX) ? UINT16_MAX : in_place);
 }
 
 static bool fields_fit(const roadpose_disparity_format_t *format) {
@@ -29,57 +38,55 @@ bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_dispar
     if (!fields_fit(format)) {
         return false;
     }
-    const bool native_big = format->byte_order == (uint8_t)ROADPOSE_BYTES_NATIVE && processor_is_big_endian();
-    const unsigned fraction = format->fraction_bits;
-    decoder->first_byte_is_high = (native_big || format->byte_order == (uint8_t)ROADPOSE_BYTES_BIG) ? 1u : 0u;
-    decoder->value_shift = format->value_shift;
-    decoder->up_shift = (uint8_t)((fraction < Q8_BITS) ? (Q8_BITS - fraction) : 0u);
-    decoder->down_shift = (uint8_t)((fraction > Q8_BITS) ? (fraction - Q8_BITS) : 0u);
-    decoder->value_mask = (uint16_t)((UINT32_C(1) << format->value_bits) - 1u);
+    const bool big = format->byte_order == (uint8_t)ROADPOSE_BYTES_BIG;
+    const bool native = format->byte_order == (uint8_t)ROADPOSE_BYTES_NATIVE;
+    const unsigned field_bits = (unsigned)format->value_shift + format->fraction_bits; /* <= 16 */
+    const uint32_t value_ones = (UINT32_C(1) << format->value_bits) - 1u;
+    const uint32_t confidence_ones = (UINT32_C(1) << format->confidence_bits) - 1u;
+    const bool in_sample = format->confidence_bits != 0u;
+    decoder->swap_bytes = !native && big != processor_is_big_endian();
+    decoder->value_mask = (uint16_t)(value_ones << format->value_shift);
+    decoder->value_scale = UINT32_C(1) << (16u - field_bits);
     decoder->sign_mask = format->is_signed ? UINT16_C(0x8000) : UINT16_C(0);
-    decoder->has_invalid = format->has_invalid ? 1u : 0u;
     decoder->invalid_first = format->invalid_first;
-    decoder->invalid_span = (uint16_t)(format->invalid_last - format->invalid_first);
-    decoder->confidence_shift = format->confidence_shift;
-    decoder->confidence_mask = (uint16_t)((UINT32_C(1) << format->confidence_bits) - 1u);
-    decoder->confidence_min = format->confidence_min;
+    decoder->invalid_span = format->has_invalid ? format->invalid_last - format->invalid_first : -1;
+    decoder->confidence_mask = (uint16_t)(confidence_ones << format->confidence_shift);
+    decoder->confidence_min = least_confidence(format, in_sample);
+    decoder->image_confidence_min = format->confidence_min;
     /* |offset| <= 16 000, so the product is below 2^23; the half rounds to the nearest 1/256 px. */
     decoder->offset_q8 = (int32_t)roadpose_floor_shift(((int64_t)format->offset_millipx * 512) / 1000 + 1, 1u);
-    decoder->limit_q8 = ROADPOSE_MAX_DISPARITY * 256;
     return true;
 }
 
-static inline uint16_t sample_at(const roadpose_decoder_t *decoder, const uint8_t *bytes) {
-    const unsigned first = bytes[0];
-    const unsigned second = bytes[1];
-    return (uint16_t)((decoder->first_byte_is_high != 0u) ? ((first << 8) | second) : ((second << 8) | first));
+static inline uint16_t sample_at(const uint8_t *bytes, bool swap_bytes) {
+    uint16_t sample;
+    memcpy(&sample, bytes, sizeof sample); /* any alignment; compilers make one load of it */
+    return swap_bytes ? (uint16_t)((sample >> 8) | (unsigned)(sample << 8)) : sample;
 }
 
-static inline bool is_match(const roadpose_decoder_t *decoder, uint16_t sample) {
-    const bool invalid = decoder->has_invalid != 0u &&
-                         (uint16_t)(sample - decoder->invalid_first) <= decoder->invalid_span;
-    const bool confident = decoder->confidence_mask == 0u ||
-                           ((sample >> decoder->confidence_shift) & decoder->confidence_mask) >=
-                               decoder->confidence_min;
-    return (sample & decoder->sign_mask) == 0u && !invalid && confident;
-}
-
-/* Q8 disparity of a sample, 0 for no match. value < 2^16 and up_shift <= 8, so value << up_shift < 2^24. */
+/* Q8 disparity of a sample, 0 for no match. Value and scale: (2^16 - 1) * 2^16 + 128 < 2^32; the 128 rounds. */
 static inline uint16_t disparity_q8(const roadpose_decoder_t *decoder, uint16_t sample) {
-    if (!is_match(decoder, sample)) {
-        return 0;
-    }
-    const uint32_t value = ((uint32_t)sample >> decoder->value_shift) & decoder->value_mask;
-    const uint32_t half = (UINT32_C(1) << decoder->down_shift) >> 1;
-    const int32_t q8 = (int32_t)(((value << decoder->up_shift) + half) >> decoder->down_shift) + decoder->offset_q8;
-    return (uint16_t)((q8 > 0 && q8 < decoder->limit_q8) ? q8 : 0);
+    const uint32_t scaled = (uint32_t)(sample & decoder->value_mask) * decoder->value_scale;
+    const int32_t q8 = (int32_t)((scaled + 128u) >> 8) + decoder->offset_q8;
+    const bool no_match = (sample & decoder->sign_mask) != 0u ||
+                          (int32_t)(uint16_t)(sample - decoder->invalid_first) <= decoder->invalid_span ||
+                          (sample & decoder->confidence_mask) < decoder->confidence_min;
+    return (uint16_t)((no_match || q8 <= 0 || q8 >= ROADPOSE_MAX_DISPARITY * 256) ? 0 : q8);
 }
 
-static void drop_unconfident(const roadpose_decoder_t *decoder, const roadpose_frame_t *frame, uint32_t row,
-                             int16_t columns, uint16_t *out_q8) {
-    const uint8_t *bytes = (const uint8_t *)frame->confidence + (size_t)row * frame->confidence_stride_bytes;
+static inline void decode(const roadpose_decoder_t *decoder, const uint8_t *bytes, int16_t columns, bool swap_bytes,
+                          uint16_t *out_q8) {
+    const roadpose_decoder_t d = *decoder; /* a copy that out_q8 cannot alias: the loop keeps it in registers */
     for (int16_t i = 0; i < columns; i++) {
-        if (sample_at(decoder, bytes) < decoder->confidence_min) {
+        out_q8[i] = disparity_q8(&d, sample_at(bytes, swap_bytes));
+        bytes += 2 * ROADPOSE_COLUMN_STEP;
+    }
+}
+
+static void drop_unconfident(const roadpose_decoder_t *decoder, const uint8_t *bytes, int16_t columns,
+                             uint16_t *out_q8) {
+    for (int16_t i = 0; i < columns; i++) {
+        if (sample_at(bytes, decoder->swap_bytes) < decoder->image_confidence_min) {
             out_q8[i] = 0;
         }
         bytes += 2 * ROADPOSE_COLUMN_STEP;
@@ -88,13 +95,14 @@ static void drop_unconfident(const roadpose_decoder_t *decoder, const roadpose_f
 
 void roadpose_decode_row(const roadpose_decoder_t *decoder, const roadpose_frame_t *frame, uint32_t row,
                          int16_t columns, uint16_t *out_q8) {
-    const roadpose_decoder_t d = *decoder; /* a copy: out_q8 may not alias it, so the loop keeps it in registers */
     const uint8_t *bytes = (const uint8_t *)frame->samples + (size_t)row * frame->stride_bytes;
-    for (int16_t i = 0; i < columns; i++) {
-        out_q8[i] = disparity_q8(&d, sample_at(&d, bytes));
-        bytes += 2 * ROADPOSE_COLUMN_STEP;
+    if (decoder->swap_bytes) {
+        decode(decoder, bytes, columns, true, out_q8);
+    } else {
+        decode(decoder, bytes, columns, false, out_q8);
     }
     if (frame->confidence != NULL) {
-        drop_unconfident(decoder, frame, row, columns, out_q8);
+        bytes = (const uint8_t *)frame->confidence + (size_t)row * frame->confidence_stride_bytes;
+        drop_unconfident(decoder, bytes, columns, out_q8);
     }
 }

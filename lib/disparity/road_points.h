@@ -14,6 +14,18 @@ static inline bool roadpose_thin(uint32_t *error, uint32_t keep, uint32_t total)
     return true;
 }
 
+/* points->column[i]: the grid column (below 1024) and, above it, the weight of the corridor (0...2). */
+#define ROADPOSE_POINT_COLUMN 0x03FFu
+#define ROADPOSE_POINT_WEIGHT_SHIFT 14u
+
+static inline int32_t roadpose_point_column(uint16_t entry) {
+    return (int32_t)(entry & ROADPOSE_POINT_COLUMN);
+}
+
+static inline int32_t roadpose_point_weight(uint16_t entry) {
+    return (int32_t)(entry >> ROADPOSE_POINT_WEIGHT_SHIFT);
+}
+
 void roadpose_points_clear(roadpose_points_t *points);
 
 /* Appends the free samples of row `row`; rows come in rising order. total: free samples of the whole frame. */

@@ -21,13 +21,19 @@ void roadpose_refuse(roadpose_pose_t *pose, roadpose_status_t status) {
     pose->range_far_mm = counts.range_far_mm;
 }
 
-/* Walks from one end of the levels until `share` points are passed. on_road >= 1, so it ends within the levels. */
-static int32_t level_after(const roadpose_moments_t *moments, int32_t level, int32_t step) {
+static uint32_t road_at(const roadpose_moments_t *moments, int32_t level) {
+    return moments->level[level].open ? moments->level[level].on : 0u;
+}
+
+/* Walks from one end of the levels until `share` points are passed, or to the other end. */
+static int32_t level_after(const roadpose_moments_t *moments, int32_t first, int32_t last) {
+    const int32_t step = (first < last) ? 1 : -1;
     const uint32_t share = moments->on_road / RANGE_SHARE + 1u;
-    uint32_t passed = moments->level_road[level];
-    while (passed < share) {
+    int32_t level = first;
+    uint32_t passed = road_at(moments, level);
+    while (passed < share && level != last) {
         level += step;
-        passed += moments->level_road[level];
+        passed += road_at(moments, level);
     }
     return level;
 }
@@ -42,8 +48,8 @@ static void fill_support(roadpose_pose_t *pose, const roadpose_moments_t *moment
     /* mean square in Q16 px^2; residuals are below 4 px, so its root below 2^10 */
     const uint32_t root_q8 = roadpose_sqrt((uint64_t)(moments->rr / moments->n));
     pose->residual_millipx = (uint16_t)(root_q8 * 1000u / 256u);
-    const int32_t far_level = level_after(moments, 0, 1);
-    const int32_t near_level = level_after(moments, ROADPOSE_MAX_DISPARITY - 1, -1);
+    const int32_t far_level = level_after(moments, 0, ROADPOSE_MAX_DISPARITY - 1);
+    const int32_t near_level = level_after(moments, ROADPOSE_MAX_DISPARITY - 1, 0);
     pose->range_far_mm = roadpose_range_mm_at(grid, far_level * 256 + 128);
     pose->range_near_mm = roadpose_range_mm_at(grid, near_level * 256 + 128);
 }

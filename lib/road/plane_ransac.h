@@ -14,12 +14,12 @@
 void roadpose_slope_try(const roadpose_cloud_t *cloud, const roadpose_plane_box_t *box, uint32_t *random,
                         int32_t *best_q16, int32_t *best_score);
 
-/* Least squares of the slope on the pairs that agree with *slope_q16, then rejects (level_q8 = 0) the others.
- * Returns how many agree. Cost: all pairs twice. */
-uint16_t roadpose_slope_fit(roadpose_cloud_t *cloud, int32_t *slope_q16);
+/* Least squares of the slope on the pairs that agree with *slope_q16; then keeps only the pairs that agree with the
+ * result, with their intercepts. Returns how many that are. Cost: all pairs twice. */
+uint16_t roadpose_slope_fit(roadpose_cloud_t *cloud, const roadpose_plane_box_t *box, int32_t *slope_q16);
 
 /* The plane d = b (y - s x) + c through the intercepts t = y - s x of two random pairs: one hypothesis.
- * Cost: all pairs once. */
+ * Cost: all kept pairs once. */
 void roadpose_intercept_try(const roadpose_cloud_t *cloud, const roadpose_plane_box_t *box, int32_t slope_q16,
                             uint32_t *random, roadpose_plane_t *best, int32_t *best_score);
 

@@ -1,8 +1,10 @@
 #include "road/refinement.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "disparity/ground_range.h"
+#include "disparity/road_points.h"
 #include "fixed_point/fixed_point.h"
 #include "road/ground_plane.h"
 
@@ -16,6 +18,14 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 /* The mean residual of a distance may be this share of the noise band: the mean of many points is that much better
  * known than one point. Without it the plane creeps up the foot of a speed bump. */
 #define LEVEL_OFFSET_SHARE 3
+
+/* With at least this many points the first rounds look at every fourth row only. */
+#define POINTS_PLENTY 4096u
+#define FIRST_ROW_STEP 4u
+#define LAST_SPARSE_ROUND 3u
+
+#define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
+#define LIMIT_Q24 ((int64_t)ROADPOSE_MAX_DISPARITY << 24)
 
 /* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
 #define BAND_LIMIT_Q8 1023
@@ -35,6 +45,10 @@ static int32_t noise_band_q8(uint8_t round, const roadpose_settings_t *settings)
         return last;
     }
     return FIRST_BANDS_Q8[round];
+}
+
+uint16_t roadpose_refine_row_step(uint8_t round, uint16_t points) {
+    return (round <= LAST_SPARSE_ROUND && points >= POINTS_PLENTY) ? FIRST_ROW_STEP : 1u;
 }
 
 /* A road point's X in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
@@ -60,7 +74,9 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     /* unevenness / height = unevenness * k / B; <= 200 000 um * 2^28 / 20 000: the ratio is clamped to 1 */
     const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
     rule->unevenness_q16 =
-        (round < UNEVEN_ROUND) ? 0 : (int32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
+        (round < UNEVEN_ROUND) ? 0u : (uint32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
+    /* The corridor moves with the plane: weigh at the start, when all rows come in, and before the last two looks. */
+    rule->mark_corridor = round == 0u || round == LAST_SPARSE_ROUND + 1u || round >= ROADPOSE_REFINE_ROUNDS - 1u;
     return true;
 }
 
@@ -68,29 +84,30 @@ void roadpose_levels_open_all(uint32_t *level_open) {
     memset(level_open, 0xFF, ROADPOSE_MAX_DISPARITY / 8);
 }
 
-/* Do the points at this distance lie on the plane, most of them and on average? |r| < 2^10 and at most 2^14 points. */
-static bool level_agrees(const roadpose_moments_t *moments, unsigned level, int32_t offset_max_q8) {
-    const int32_t on = moments->level_on[level];
-    const int32_t sum = moments->level_r[level];
-    const int32_t limit = on * offset_max_q8;
-    return 2 * on >= (int32_t)moments->level_near[level] && sum <= limit && sum >= -limit;
+void roadpose_levels_open(roadpose_moments_t *moments) {
+    for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
+        moments->level[level].open = true;
+    }
 }
 
-void roadpose_levels_judge(uint32_t *level_open, const roadpose_moments_t *moments,
-                           const roadpose_settings_t *settings) {
+/* |r| < 2^10 and at most 2^14 points: the sum and the limit stay below 2^24. */
+void roadpose_levels_judge(roadpose_moments_t *moments, const roadpose_settings_t *settings) {
     const int32_t offset_max_q8 = settings->noise_millipx * 256 / 1000 / LEVEL_OFFSET_SHARE;
-    for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
-        const uint32_t bit = UINT32_C(1) << (level & 31u);
-        if (level_agrees(moments, level, offset_max_q8)) {
-            level_open[level >> 5] |= bit;
-        } else {
-            level_open[level >> 5] &= ~bit;
-        }
+    for (unsigned i = 0; i < ROADPOSE_MAX_DISPARITY; i++) {
+        roadpose_level_t *level = &moments->level[i];
+        const int32_t limit = level->on * offset_max_q8;
+        level->open = 2 * level->on >= level->near && level->r <= limit && level->r >= -limit;
     }
 }
 
 void roadpose_moments_clear(roadpose_moments_t *moments) {
-    memset(moments, 0, sizeof *moments);
+    const size_t sums = offsetof(roadpose_moments_t, level);
+    memset(moments, 0, sums);
+    for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
+        moments->level[level].near = 0;
+        moments->level[level].on = 0;
+        moments->level[level].r = 0;
+    }
 }
 
 /* 0 outside the corridor, else the weight. |x| <= 2^10 columns of <= 16 px and |du| <= 8 px in Q12: below 2^27;
@@ -132,52 +149,72 @@ static void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
     sums->rr += (uint32_t)(weight * r * r);
 }
 
-/* Where a point of the corridor lies: counts it, and returns whether it takes part in the least squares.
- * r: residual; p: the plane's disparity there, in 1...ROADPOSE_MAX_DISPARITY * 256 - 1. */
-static bool sort_point(roadpose_moments_t *moments, const roadpose_road_rule_t *rule, const uint32_t *level_open,
-                       int32_t r, int32_t p) {
-    const unsigned level = (unsigned)p >> 8;
-    const int32_t distance = (r < 0) ? -r : r;
-    const int32_t band = rule->noise_q8 + (int32_t)(((int64_t)p * rule->unevenness_q16) >> 16);
-    if (distance <= BAND_LIMIT_Q8) {
-        moments->level_near[level]++;
-        if (distance <= rule->noise_q8) {
-            moments->level_on[level]++;
-            moments->level_r[level] += r;
+/* Weighs the points of a row by the corridor. Points where the plane is too far, above its horizon, or nearer than can
+ * be measured get none. p: disparity of the plane, Q24; see roadpose_moments_add_row(). */
+static void mark_row(roadpose_points_t *points, const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
+                     const roadpose_grid_t *grid, int64_t base_q24, int16_t row) {
+    const int64_t du_q12 = (int64_t)grid->du_millipx * 4096 / 1000;
+    for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
+        const int32_t column = roadpose_point_column(points->column[i]);
+        const int32_t x = column - grid->column_0;
+        const int64_t p_q8 = roadpose_floor_shift(base_q24 + (int64_t)plane->a_q24 * x, 16);
+        int32_t weight = 0;
+        if (p_q8 >= rule->range_min_q8 && p_q8 < LIMIT_Q8) {
+            weight = corridor_weight(rule, (int64_t)x * (ROADPOSE_COLUMN_STEP * 4096) + du_q12, (int32_t)p_q8);
         }
-        if (((level_open[level >> 5] >> (level & 31u)) & 1u) == 0u) {
+        points->column[i] = (uint16_t)(column | (weight << ROADPOSE_POINT_WEIGHT_SHIFT));
+    }
+}
+
+/* Where a point of the corridor lies: counts it, and returns whether it takes part in the least squares.
+ * r: residual; p: the plane's disparity there, Q8, within the histogram's levels. */
+static inline bool sort_point(roadpose_moments_t *moments, const roadpose_road_rule_t *rule, int32_t r, uint32_t p) {
+    const int32_t distance = (r < 0) ? -r : r;
+    if (distance <= BAND_LIMIT_Q8) {
+        roadpose_level_t *level = &moments->level[p >> 8];
+        level->near++;
+        if (distance <= rule->noise_q8) {
+            level->on++;
+            level->r += r;
+        }
+        if (!level->open) {
             moments->uneven++;
             return false;
         }
-        if (distance <= band) {
+        /* p < 2^16 and unevenness < 2^16: the product fits 32 bits */
+        if (distance <= rule->noise_q8 + (int32_t)((p * rule->unevenness_q16) >> 16)) {
             moments->on_road++;
-            moments->level_road[level]++;
             return true;
         }
     }
-    moments->above += (r > 0) ? 1u : 0u;
-    moments->below += (r < 0) ? 1u : 0u;
+    if (r > 0) {
+        moments->above++;
+    } else {
+        moments->below++;
+    }
     return false;
 }
 
-void roadpose_moments_add_row(roadpose_moments_t *moments, const roadpose_points_t *points,
-                              const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
-                              const roadpose_grid_t *grid, const uint32_t *level_open, int16_t row) {
+void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *points, const roadpose_plane_t *plane,
+                              const roadpose_road_rule_t *rule, const roadpose_grid_t *grid, int16_t row) {
     const int32_t y = row - grid->row_0;
-    /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 makes the floor below round to nearest */
+    /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 rounds the disparities below */
     const int64_t base_q24 = (int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15);
-    const int64_t du_q12 = (int64_t)grid->du_millipx * 4096 / 1000;
+    const int64_t a_q24 = plane->a_q24;
     row_sums_t sums = {0, 0, 0, 0, 0, 0};
+    if (rule->mark_corridor) {
+        mark_row(points, plane, rule, grid, base_q24, row);
+    }
     for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
-        const int32_t x = points->column[i] - grid->column_0;
-        const int64_t p_wide = roadpose_floor_shift(base_q24 + (int64_t)plane->a_q24 * x, 16);
-        if (p_wide < rule->range_min_q8 || p_wide >= ROADPOSE_MAX_DISPARITY * 256) {
-            continue; /* above the horizon, too far, or nearer than can be measured */
+        const int32_t weight = roadpose_point_weight(points->column[i]);
+        const int32_t x = roadpose_point_column(points->column[i]) - grid->column_0;
+        const int64_t p_q24 = base_q24 + a_q24 * x;
+        if (weight == 0 || p_q24 < 0 || p_q24 >= LIMIT_Q24) {
+            continue; /* the plane may have moved since the mark: the limits guard the levels */
         }
-        const int32_t p = (int32_t)p_wide;
-        const int32_t weight = corridor_weight(rule, (int64_t)x * (ROADPOSE_COLUMN_STEP * 4096) + du_q12, p);
-        const int32_t r = points->disparity_q8[i] - p;
-        if (weight != 0 && sort_point(moments, rule, level_open, r, p)) {
+        const uint32_t p = (uint32_t)((uint64_t)p_q24 >> 16);
+        const int32_t r = (int32_t)points->disparity_q8[i] - (int32_t)p;
+        if (sort_point(moments, rule, r, p)) {
             add_point(&sums, weight, x, r);
         }
     }

@@ -5,7 +5,8 @@
 #include "roadpose/state.h"
 
 /* Rounds of one refinement; each looks at the points once and moves the plane once. The first rounds take what lies
- * within a shrinking band of noise around the plane; the last ones follow the road where it is uneven. */
+ * within a shrinking band of noise around the plane, from every fourth row where there are points enough; the last
+ * ones follow the road where it is uneven. */
 #define ROADPOSE_REFINE_ROUNDS 7
 
 /* Which points count around the present plane. */
@@ -15,7 +16,8 @@ typedef struct {
     int64_t half_outer_q12;  /* half width in baselines where points still count half */
     int64_t half_inner_q12;  /* and where they count full */
     int32_t noise_q8;        /* half width of the band that noise needs, pixels */
-    int32_t unevenness_q16;  /* what an uneven road adds to it, as a share of the disparity */
+    uint32_t unevenness_q16; /* what an uneven road adds to it, as a share of the disparity */
+    bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */
 } roadpose_road_rule_t;
 
 /* Prepares the rule of a round (ROADPOSE_REFINE_ROUNDS: the assessment) for the plane. Returns false when the plane is
@@ -23,19 +25,21 @@ typedef struct {
 bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
                         const roadpose_settings_t *settings, uint8_t round);
 
+/* Grid rows from one row that the round looks at to the next. */
+uint16_t roadpose_refine_row_step(uint8_t round, uint16_t points);
+
+/* Opens every distance; and, after a look at the points, closes the distances where the corridor's points near the
+ * plane are not within its noise, most of them and on average: a speed bump, a dip, the foot of a kerb. A crowned road
+ * stays open: there it is only the sides that depart. */
+void roadpose_levels_open(roadpose_moments_t *moments);
+void roadpose_levels_judge(roadpose_moments_t *moments, const roadpose_settings_t *settings);
+
+/* Clears the sums, not what is open. */
 void roadpose_moments_clear(roadpose_moments_t *moments);
 
-/* Opens every distance; and, after a look at all points, closes the distances where the corridor's points near
- * the plane are not within its noise, most of them and on average: a speed bump, a dip, the foot of a kerb. A crowned
- * road stays open: there it is only the sides that depart. */
-void roadpose_levels_open_all(uint32_t *level_open);
-void roadpose_levels_judge(uint32_t *level_open, const roadpose_moments_t *moments,
-                           const roadpose_settings_t *settings);
-
 /* Adds the points of one grid row. */
-void roadpose_moments_add_row(roadpose_moments_t *moments, const roadpose_points_t *points,
-                              const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
-                              const roadpose_grid_t *grid, const uint32_t *level_open, int16_t row);
+void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *points, const roadpose_plane_t *plane,
+                              const roadpose_road_rule_t *rule, const roadpose_grid_t *grid, int16_t row);
 
 /* Moves the plane by the least-squares step of the moments. Where the points do not spread sideways enough to tell
  * roll, the plane keeps a = 0 and *roll_observed is false. Returns false when not even b and c can be told. */

@@ -75,8 +75,8 @@ void roadpose_cloud_place(roadpose_cloud_t *cloud, const roadpose_points_t *poin
 
 static void keep_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,
                       uint16_t first, uint16_t second) {
-    const int32_t x1 = points->column[first] - grid->column_0;
-    const int32_t x2 = points->column[second] - grid->column_0;
+    const int32_t x1 = roadpose_point_column(points->column[first]) - grid->column_0;
+    const int32_t x2 = roadpose_point_column(points->column[second]) - grid->column_0;
     const int32_t y1 = roadpose_points_row(points, grid->rows, first) - grid->row_0;
     const int32_t y2 = roadpose_points_row(points, grid->rows, second) - grid->row_0;
     const uint16_t k = cloud->pairs;
@@ -123,7 +123,7 @@ void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *p
     const uint16_t first = cloud->order[start + roadpose_lcg_below(random, count)];
     const uint16_t second = draw_partner(cloud, level, random);
     const int64_t apart = roadpose_abs(points->disparity_q8[first] - points->disparity_q8[second]);
-    const int64_t sideways = roadpose_abs(points->column[first] - points->column[second]);
+    const int64_t sideways = roadpose_abs(roadpose_point_column(points->column[first]) - roadpose_point_column(points->column[second]));
     if (apart <= LEVEL_WIDTH_Q8 && sideways * ROADPOSE_COLUMN_STEP >= SIDEWAYS_MIN_PX) {
         keep_pair(cloud, points, grid, first, second);
     }

@@ -11,10 +11,13 @@ struct RoadPixel {
     double x, y, disparity;  // x, y from the principal point
 };
 
-bool in_corridor(double x, double true_disparity, const recording_rig_t& rig) {
+// Sideways is along the road, from the point straight below the camera.
+bool in_corridor(double x, double true_disparity, const DisparityPlane& truth, const recording_rig_t& rig) {
     roadpose_settings_t settings;
     roadpose_settings_default(&settings);
-    const double sideways_mm = 1000 * std::abs(x) * rig.baseline_m / true_disparity;
+    const double length = std::hypot(truth.a, truth.b, truth.c / rig.focal_px), n_x = truth.a / length;
+    const double camera_x = x * rig.baseline_m / true_disparity, below = n_x * rig.baseline_m / length;
+    const double sideways_mm = 1000 * std::abs(camera_x - below) / std::sqrt(1 - n_x * n_x);
     const double ahead_mm = 1000 * rig.focal_px * rig.baseline_m / true_disparity;
     return sideways_mm <= settings.corridor_half_width_mm && ahead_mm <= settings.corridor_range_mm;
 }
@@ -28,7 +31,7 @@ std::vector<RoadPixel> road_pixels(const Frame& frame, bool corridor) {
         for (int u = 0; u < rig.width; ++u) {
             if (!frame.road[static_cast<std::size_t>(v) * rig.width + u]) continue;
             const RoadPixel pixel{u - rig.cu_px, v - rig.cv_px, frame.disparity(u, v)};
-            if (pixel.disparity > 0 && (!corridor || in_corridor(pixel.x, truth.at(pixel.x, pixel.y), rig)))
+            if (pixel.disparity > 0 && (!corridor || in_corridor(pixel.x, truth.at(pixel.x, pixel.y), truth, rig)))
                 pixels.push_back(pixel);
         }
     return pixels;

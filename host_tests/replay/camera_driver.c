@@ -50,16 +50,29 @@ void driver_pass_point(roadpose_camera_context_t *driver) {
         driver_interrupt(driver, driver->strike_kind);
 }
 
+/* Turns over, and back, every bit that both sides share: who looks at it or changes it without the lock goes wrong. */
+static void turn_shared(roadpose_camera_port_t *port) {
+    uint8_t *const bytes = (uint8_t *)&port->mailbox;
+
+    for (size_t i = 0; i < sizeof port->mailbox; i++)
+        bytes[i] = (uint8_t)~bytes[i];
+    port->is_full = !port->is_full;
+    port->counters.frames_ready = ~port->counters.frames_ready;
+    port->counters.frames_displaced = ~port->counters.frames_displaced;
+}
+
 static uint32_t lock(roadpose_camera_context_t *driver) {
     driver_pass_point(driver);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, driver->lock_depth, "the port locks twice");
     driver->lock_depth++;
+    turn_shared(&driver->port);
     return 0xCAFEu + (driver->is_in_interrupt ? 1u : 0u);
 }
 
 static void unlock(roadpose_camera_context_t *driver, uint32_t state) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(1, driver->lock_depth, "unlock without lock");
     TEST_ASSERT_EQUAL_HEX32_MESSAGE(0xCAFEu + (driver->is_in_interrupt ? 1u : 0u), state, "not what lock returned");
+    turn_shared(&driver->port);
     driver->lock_depth--;
     driver_pass_point(driver);
 }
@@ -130,6 +143,7 @@ void driver_start(roadpose_camera_context_t *driver) {
     driver->strike[1] = DRIVER_NEVER;
     start_estimator(&driver->estimator);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_OK, roadpose_camera_init(&driver->port, &platform, &driver->estimator));
+    turn_shared(&driver->port);
 }
 
 /* Three buffers are enough: one is always the driver's to fill. */

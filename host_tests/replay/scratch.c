@@ -24,7 +24,7 @@ void scratch_end(bool keep) {
     const pid_t child = keep ? -1 : fork();
 
     if (keep)
-        (void)printf("kept for a look: %s\n", root);
+        (void)printf("\nkept for a look: %s\n", root);
     if (child == 0) {
         (void)execlp("rm", "rm", "-rf", "--", root, (char *)NULL);
         _exit(127);

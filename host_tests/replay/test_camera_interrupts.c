@@ -1,5 +1,6 @@
 /* The camera port against an interrupt at every point: first at each place where the port calls out or returns, alone
- * and in pairs. Between those places the port touches nothing that the interrupt touches, unless it holds the lock. */
+ * and in pairs. Between those places the port touches nothing that both sides share unless it holds the lock: the
+ * driver of these tests hides it. */
 #include <stdio.h>
 
 #include "camera_driver.h"
@@ -15,7 +16,7 @@ void setUp(void) {
 
 void tearDown(void) {
     if (Unity.CurrentTestFailed)
-        (void)printf("failed in the run with %s\n", current);
+        (void)printf("\nin the run with %s\n", current);
 }
 
 /* One run: a frame, then cycles of some slices, a flush in the midst if asked for, until nothing is left. Returns how

@@ -82,7 +82,6 @@ static void free_map_slice(roadpose_t *instance) {
     if (instance->pose.free_samples < SAMPLES_MIN) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
-        roadpose_points_clear(&instance->points);
         roadpose_levels_open(&instance->moments);
         roadpose_enter(instance, PHASE_V_DISPARITY);
     }
@@ -122,6 +121,12 @@ static bool look_at_points(roadpose_t *instance, uint8_t round) {
     return true;
 }
 
+static void accept(roadpose_t *instance) {
+    roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,
+                    instance->roll_observed);
+    roadpose_enter(instance, PHASE_DONE);
+}
+
 static void refine_slice(roadpose_t *instance) {
     if (!look_at_points(instance, instance->round)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
@@ -134,23 +139,21 @@ static void refine_slice(roadpose_t *instance) {
         roadpose_finish(instance, ROADPOSE_STATUS_LITTLE_SUPPORT);
         return;
     }
-    roadpose_levels_judge(&instance->moments, &instance->settings);
     instance->cursor = 0;
     instance->round++;
     if (instance->round == ROADPOSE_REFINE_ROUNDS) {
-        roadpose_enter(instance, PHASE_ASSESS);
+        accept(instance); /* the last step moved the plane by far less than the band: its look stands for it */
+    } else {
+        roadpose_levels_judge(&instance->moments, &instance->settings);
     }
 }
 
+/* A plane that was not refined is looked at once, within the widest band. */
 static void assess_slice(roadpose_t *instance) {
-    /* a plane that was not refined is held against the first, widest band */
-    const uint8_t round = instance->settings.refine ? ROADPOSE_REFINE_ROUNDS : 0u;
-    if (!look_at_points(instance, round)) {
+    if (!look_at_points(instance, 0)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else if (instance->cursor == (uint16_t)instance->grid.rows) {
-        roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,
-                        instance->roll_observed);
-        roadpose_enter(instance, PHASE_DONE);
+        accept(instance);
     }
 }
 
@@ -185,7 +188,7 @@ uint32_t roadpose_work_slices_max(void) {
     const uint32_t row_pass = (ROADPOSE_MAX_GRID_ROWS + rows_a_slice - 1u) / rows_a_slice;
     const uint32_t columns_a_slice = ROADPOSE_SLICE_SAMPLES / ROADPOSE_MAX_DISPARITY;
     const uint32_t column_pass = (ROADPOSE_MAX_GRID_COLUMNS + columns_a_slice - 1u) / columns_a_slice;
-    /* clear and free map; u- and v-disparity, refinement, assessment. A narrower image than the limit has fewer
-     * columns and so more rows a slice: never more slices. */
-    return 2u * column_pass + (3u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
+    /* clear and free map; u- and v-disparity and the refinement. A narrower image than the limit has fewer columns and
+     * so more rows a slice: never more slices. */
+    return 2u * column_pass + (2u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
 }

@@ -2,6 +2,7 @@
 
 #include "arguments.h"
 #include "disparity/decoder.h"
+#include "disparity/road_points.h"
 #include "disparity/u_disparity.h"
 #include "frame_work.h"
 #include "method_work.h"
@@ -82,6 +83,7 @@ roadpose_result_t roadpose_frame_begin(roadpose_t *instance, const roadpose_fram
     }
     instance->random = instance->settings.seed; /* each frame anew: the result does not depend on the frames before */
     instance->pose = (roadpose_pose_t){0};
+    roadpose_points_clear(&instance->points);
     roadpose_enter(instance, PHASE_CLEAR);
     return ROADPOSE_OK;
 }
@@ -158,10 +160,10 @@ const char *roadpose_status_word(uint8_t status) {
     return (status < ROADPOSE_STATUS_COUNT) ? WORDS[status] : "unknown";
 }
 
-/* The free map is there once its phase is over, whatever came after. */
+/* Points are there once the free map and the v-disparity are, whatever came after. */
 static bool has_histograms(const roadpose_t *instance) {
     return instance != NULL && is_ready(instance) && instance->phase == (uint8_t)PHASE_DONE &&
-           instance->pose.free_samples != 0u;
+           instance->points.count != 0u;
 }
 
 bool roadpose_is_free(const roadpose_t *instance, uint16_t grid_column, uint16_t disparity_px) {

@@ -9,14 +9,15 @@ typedef enum {
     ROADPOSE_STATUS_OK = 0,
     ROADPOSE_STATUS_NO_DISPARITY = 1,   /* too few samples carry a disparity */
     ROADPOSE_STATUS_NO_ROAD = 2,        /* nothing in the free map is like a road within the mounting limits */
-    ROADPOSE_STATUS_LITTLE_SUPPORT = 3, /* a road, but too few points on it */
+    ROADPOSE_STATUS_LITTLE_SUPPORT = 3, /* a road, but too few points on it, or within too few rows (spread under 10 px) */
     ROADPOSE_STATUS_SHORT_RANGE = 4,    /* a plane that does not reach far enough ahead: a bonnet, a gap behind a lorry */
     ROADPOSE_STATUS_POOR_FIT = 5,       /* too many points of the corridor disagree with the plane */
     ROADPOSE_STATUS_OUTSIDE_LIMITS = 6  /* the plane's pitch, roll or height is outside the mounting limits */
 } roadpose_status_t;
 #define ROADPOSE_STATUS_COUNT 7
 
-/* Bits of roadpose_pose_t.observed. */
+/* Bits of roadpose_pose_t.observed. Pitch and height are observed in every accepted frame; roll is not by Method 1
+ * without refinement, nor where the road points spread less than 20 px (root mean square) sideways. */
 #define ROADPOSE_OBSERVED_PITCH 1u
 #define ROADPOSE_OBSERVED_ROLL 2u
 #define ROADPOSE_OBSERVED_HEIGHT 4u

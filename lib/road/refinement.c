@@ -22,7 +22,7 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 /* With at least this many points the first rounds look at every fourth row only. */
 #define POINTS_PLENTY 4096u
 #define FIRST_ROW_STEP 4u
-#define LAST_SPARSE_ROUND 3u
+#define LAST_SPARSE_ROUND 4u
 
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
 #define LIMIT_Q24 ((int64_t)ROADPOSE_MAX_DISPARITY << 24)
@@ -34,8 +34,10 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 #define FULL_WEIGHT 2
 #define HALF_WEIGHT 1
 
-/* Roll needs points that spread at least this far sideways, pitch and height this far down (root mean square). */
-#define SPREAD_MIN_PX 20
+/* Root mean square spread, in pixels, below which the points tell no roll (sideways), or no pitch and height (down the
+ * image): 96 points with a noise of 0.2 px would leave half a degree. */
+#define SPREAD_SIDEWAYS_MIN_PX 20
+#define SPREAD_DOWN_MIN_PX 10
 
 #define NO_LIMIT_Q12 (INT64_C(1) << 30)
 
@@ -75,8 +77,8 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
     rule->unevenness_q16 =
         (round < UNEVEN_ROUND) ? 0u : (uint32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
-    /* The corridor moves with the plane: weigh at the start, when all rows come in, and before the last two looks. */
-    rule->mark_corridor = round == 0u || round == LAST_SPARSE_ROUND + 1u || round >= ROADPOSE_REFINE_ROUNDS - 1u;
+    /* The corridor moves with the plane: weigh at the start, and when all rows come in. */
+    rule->mark_corridor = round == 0u || round == LAST_SPARSE_ROUND + 1u;
     return true;
 }
 
@@ -279,10 +281,10 @@ static bool spreads(int64_t own, int64_t mixed, int64_t other, int64_t n, int64_
 bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *plane, bool *roll_observed) {
     spread_t s;
     spread_about_mean(moments, &s);
-    if (moments->n <= 0 || !spreads(s.yy, 0, 1, moments->n, SPREAD_MIN_PX / ROADPOSE_ROW_STEP)) {
+    if (moments->n <= 0 || !spreads(s.yy, 0, 1, moments->n, SPREAD_DOWN_MIN_PX / ROADPOSE_ROW_STEP)) {
         return false;
     }
-    *roll_observed = spreads(s.xx, s.xy, s.yy, moments->n, SPREAD_MIN_PX / ROADPOSE_COLUMN_STEP);
+    *roll_observed = spreads(s.xx, s.xy, s.yy, moments->n, SPREAD_SIDEWAYS_MIN_PX / ROADPOSE_COLUMN_STEP);
     int64_t a;
     int64_t b;
     solve_slopes(&s, *roll_observed, &a, &b);

@@ -20,8 +20,7 @@ typedef struct {
     bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */
 } roadpose_road_rule_t;
 
-/* Prepares the rule of a round (ROADPOSE_REFINE_ROUNDS: the assessment) for the plane. Returns false when the plane is
- * no plane. */
+/* Prepares the rule of a round for the plane. Returns false when the plane is no plane. */
 bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
                         const roadpose_settings_t *settings, uint8_t round);
 

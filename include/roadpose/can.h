@@ -91,7 +91,7 @@ typedef struct {
 typedef struct {
     uint8_t valid;              /* ROADPOSE_CAN_FRAME_COUNT, _REFUSED_COUNT, _OVERWRITTEN_COUNT, _DROPPED_COUNT */
     uint8_t pose_status;        /* roadpose_status_t or ROADPOSE_CAN_STATUS_...; above 15: sent as 15 */
-    uint8_t yaw_status;         /* 0: there is a yaw; 1...14: why not; 15: not known, or the rig estimates no yaw */
+    uint8_t yaw_status;         /* roadpose_yaw_status_t; 15: not known, or the rig estimates no yaw */
     uint32_t frame_count;       /* of the frame that the pose belongs to */
     uint32_t refused_count;     /* frames without a pose */
     uint32_t overwritten_count; /* frames that the camera delivered and a newer one replaced unseen */
@@ -172,6 +172,7 @@ typedef struct {
 typedef struct {
     uint8_t data[ROADPOSE_CAN_BYTES];
     uint8_t counter; /* E2E counter of this frame, or of the next one when nothing waits */
+    uint16_t sent;   /* counter of the last frame that was taken; 0xFFFF: none yet */
     bool waits;
 } roadpose_can_slot_t;
 
@@ -216,7 +217,8 @@ void roadpose_can_transmit_publish(roadpose_can_transmit_t *transmit, const road
  *
  * E2E counters: a frame that found no room for the whole cycle was never sent, so its replacement takes over its
  * counter; counters have no gap however long a queue is full. While the bus is down, counters go on with every cycle,
- * so that the receivers see from the gap how much they missed.
+ * so that the receivers see from the gap how much they missed; only the value of the last frame that was sent is left
+ * out, because a receiver would take the first frame after the outage for a repetition.
  * Cost: three CRCs of 9 bytes, one call of can_recover at most, three of can_send at most. */
 roadpose_can_result_t roadpose_can_transmit_cycle(roadpose_can_transmit_t *transmit, uint64_t now_us);
 

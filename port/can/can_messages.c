@@ -5,16 +5,16 @@
 
 #include "can_signals.h"
 
-#define ANGLE_5_MILLIDEG_Q40 INT64_C(12599475159) /* 2^40 / 87.26646... */
+#define ANGLE_5_MILLIDEG_Q46 INT64_C(806366410203) /* 2^46 / 87.26646... */
 #define ANGLE_5_MILLIDEG_Q32 INT64_C(374806602903)
-#define ANGLE_20_MILLIDEG_Q40 INT64_C(3149868790) /* 2^40 / 349.06585... */
+#define ANGLE_20_MILLIDEG_Q46 INT64_C(201591602551) /* 2^46 / 349.06585... */
 #define ANGLE_20_MILLIDEG_Q32 INT64_C(1499226411614)
 
-static const roadpose_can_angle_t pitch = {{24, 14, 16382}, 8192, ANGLE_5_MILLIDEG_Q40, ANGLE_5_MILLIDEG_Q32};
-static const roadpose_can_angle_t roll = {{38, 14, 16382}, 8192, ANGLE_5_MILLIDEG_Q40, ANGLE_5_MILLIDEG_Q32};
+static const roadpose_can_angle_t pitch = {{24, 14, 16382}, 8192, ANGLE_5_MILLIDEG_Q46, ANGLE_5_MILLIDEG_Q32};
+static const roadpose_can_angle_t roll = {{38, 14, 16382}, 8192, ANGLE_5_MILLIDEG_Q46, ANGLE_5_MILLIDEG_Q32};
 static const roadpose_can_linear_t height = {{52, 12, 4094}, 200000, 1250};
 
-static const roadpose_can_angle_t yaw = {{24, 12, 4094}, 2048, ANGLE_20_MILLIDEG_Q40, ANGLE_20_MILLIDEG_Q32};
+static const roadpose_can_angle_t yaw = {{24, 12, 4094}, 2048, ANGLE_20_MILLIDEG_Q46, ANGLE_20_MILLIDEG_Q32};
 static const roadpose_can_linear_t support = {{36, 7, 100}, 0, 10};
 static const roadpose_can_linear_t residual = {{43, 7, 126}, 0, 25};
 static const roadpose_can_linear_t range_near = {{50, 6, 62}, 0, 500};

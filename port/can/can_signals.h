@@ -17,7 +17,7 @@ typedef struct {
 typedef struct {
     roadpose_can_place_t place;
     uint16_t zero;              /* code of angle 0 */
-    int64_t codes_per_urad_q40; /* 2^40 / step, rounded */
+    int64_t codes_per_urad_q46; /* 2^46 / step, rounded */
     int64_t urad_per_code_q32;  /* 2^32 * step, rounded */
 } roadpose_can_angle_t;
 

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#define NONE_SENT 0xFFFFu
+
 roadpose_can_result_t roadpose_can_transmit_init(roadpose_can_transmit_t *transmit,
                                                  const roadpose_can_settings_t *settings,
                                                  const roadpose_can_port_t *port) {
@@ -22,6 +24,7 @@ roadpose_can_result_t roadpose_can_transmit_init(roadpose_can_transmit_t *transm
     transmit->port = *port;
     for (unsigned message = 0; message < ROADPOSE_CAN_MESSAGES; message++) {
         transmit->slot[message].counter = ROADPOSE_E2E_FIRST_COUNTER;
+        transmit->slot[message].sent = NONE_SENT;
     }
     return ROADPOSE_CAN_DONE;
 }
@@ -43,7 +46,11 @@ void roadpose_can_transmit_publish(roadpose_can_transmit_t *transmit, const road
 
 static void step_counter(roadpose_can_transmit_t *transmit, unsigned message) {
     roadpose_can_slot_t *slot = &transmit->slot[message];
-    slot->counter = roadpose_e2e_next_counter(transmit->settings.e2e[message].profile, slot->counter);
+    uint8_t profile = transmit->settings.e2e[message].profile;
+    slot->counter = roadpose_e2e_next_counter(profile, slot->counter);
+    if (slot->counter == slot->sent) { /* an outage has gone once round: this would be taken for a repetition */
+        slot->counter = roadpose_e2e_next_counter(profile, slot->counter);
+    }
 }
 
 /* A frame for which there was no room was never sent, so the next one takes its counter. A frame that met a dead bus is
@@ -98,6 +105,7 @@ static void make_frames(roadpose_can_transmit_t *transmit) {
 
 static void note_sent(roadpose_can_transmit_t *transmit, unsigned message) {
     transmit->slot[message].waits = false;
+    transmit->slot[message].sent = transmit->slot[message].counter;
     step_counter(transmit, message);
     transmit->counts.sent++;
     if (transmit->bus_down) {

@@ -99,6 +99,7 @@ static void test_the_same_bytes_twice(void) {
 
 static void test_the_order_of_the_frames_does_not_matter(void) {
     program_run_t forward, backward;
+    const char *first, *last;
 
     planar_recording_begin("forward", PLANAR_RIG);
     planar_recording_add("forward", "1.pgm", poses[1], PLANAR_Q8);
@@ -108,11 +109,11 @@ static void test_the_order_of_the_frames_does_not_matter(void) {
     planar_recording_add("backward", "2.pgm", poses[1], PLANAR_Q8);
     forward = program_run(scratch_path("forward"), NULL);
     backward = program_run(scratch_path("backward"), NULL);
+    first = line_of(forward.output, 1);
+    last = line_of(backward.output, 2);
+    TEST_ASSERT_TRUE_MESSAGE(first != NULL && last != NULL, forward.command);
     /* From the comma after the frame number to the end of the line. */
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0,
-                                  strncmp(line_of(forward.output, 1) + 1, line_of(backward.output, 2) + 1,
-                                          strcspn(line_of(forward.output, 1), "\n")),
-                                  forward.command);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, strncmp(first + 1, last + 1, strcspn(first, "\n")), forward.command);
     program_forget(&forward);
     program_forget(&backward);
 }

@@ -21,7 +21,8 @@ void for_each_sample(cv::Mat& disparity, Change change) {
 
 void add_blob(cv::Mat& disparity, double largest_px, Lcg& random) {
     const double level = random.uniform(0.1, 1.0) * largest_px, spread = random.uniform(0.2, 2.0);
-    const int radius = random.integer(4, 22), u = random.integer(0, disparity.cols - 1), v = random.integer(0, disparity.rows - 1);
+    const int radius = random.integer(4, 22);
+    const int u = random.integer(0, disparity.cols - 1), v = random.integer(0, disparity.rows - 1);
     for (int row = std::max(v - radius, 0); row < std::min(v + radius, disparity.rows); ++row)
         for (int column = std::max(u - radius, 0); column < std::min(u + radius, disparity.cols); ++column) {
             const int du = column - u, dv = row - v;

@@ -51,7 +51,8 @@ struct RoadPixel {
 
 bool in_corridor(const RoadPixel& pixel, const Rig& rig) {
     const double depth = rig.focal_px * rig.baseline_m / pixel.exact;
-    return depth >= corridor_near && depth <= corridor_far && std::abs(pixel.u * depth / rig.focal_px) <= corridor_half_width;
+    const double sideways = pixel.u * depth / rig.focal_px;
+    return depth >= corridor_near && depth <= corridor_far && std::abs(sideways) <= corridor_half_width;
 }
 
 std::vector<RoadPixel> road_pixels(const StereoPair& pair, const cv::Mat& disparity, const Rig& rig, bool corridor_only) {
@@ -147,7 +148,8 @@ FrameCheck check_frame(const StereoPair& pair, const cv::Mat& disparity, const R
 }
 
 std::string header_of_check() {
-    return "road_px valid% bias_px noise_px outlier% | exact LS: pitch_deg roll_deg height_mm | matched LS: pitch_deg roll_deg height_mm";
+    return "road_px valid% bias_px noise_px outlier% | exact LS: pitch_deg roll_deg height_mm | "
+           "matched LS: pitch_deg roll_deg height_mm";
 }
 
 std::string to_text(const FrameCheck& check) {

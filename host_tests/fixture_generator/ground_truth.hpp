@@ -10,8 +10,8 @@
 
 namespace fixtures {
 
-// Flat road (bump excluded): the plane z = 0. Crowned road: least-squares plane of the exact surface over a uniform 0.1 m grid
-// of ±2 m sideways and 3–25 m ahead of the camera.
+// Flat road (bump excluded): the plane z = 0. Crowned road: least-squares plane of the exact surface over a uniform
+// 0.1 m grid of ±2 m sideways and 3–25 m ahead of the camera.
 RoadPlane true_road_plane(const RoadSurface& road, const Pose& pose);
 
 struct PoseError {

@@ -1,4 +1,5 @@
-// roadpose-make-fixtures OUT_DIR [--full] [--only NAME]: renders, matches and writes the recordings, and measures the matcher.
+// roadpose-make-fixtures OUT_DIR [--full] [--only NAME]: renders, matches and writes the recordings, and measures the
+// matcher.
 #include <opencv2/core.hpp>
 
 #include <cmath>

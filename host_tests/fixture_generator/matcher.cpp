@@ -37,7 +37,8 @@ cv::Ptr<cv::StereoMatcher> make_block(int disparity_range) {
     return matcher;
 }
 
-// OpenCV: signed, 4 fraction bits, negative = no match. A match at exactly 0 (infinitely far) cannot be told from "none" and is lost.
+// OpenCV: signed, 4 fraction bits, negative = no match. A match at exactly 0 (infinitely far) cannot be told from
+// "none" and is lost.
 std::uint16_t to_sample(std::int16_t opencv_value) {
     return opencv_value > 0 ? static_cast<std::uint16_t>(opencv_value * samples_per_opencv_step) : 0;
 }

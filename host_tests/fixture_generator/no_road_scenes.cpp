@@ -68,7 +68,8 @@ Scene lorry_back(Lcg& random) {
     const double grey = random.uniform(110, 190), contrast = random.uniform(0.35, 0.8);
     Texture door = surface_texture(grey, contrast, random);
     door.pattern = Pattern::vehicle_rear;
-    const double distance = random.uniform(1.8, 3.5), aside = random.uniform(-0.3, 0.3), yaw = random.uniform(-0.03, 0.03);
+    const double distance = random.uniform(1.8, 3.5);
+    const double aside = random.uniform(-0.3, 0.3), yaw = random.uniform(-0.03, 0.03);
     // As wide as the view at this distance: nothing else is to be seen, as in a queue with the bumper against it.
     add_panel(scene, {distance + 4, aside, 1.5}, {4, distance, 0.8 * distance}, yaw, door);
     add_panel(scene, {distance - 0.06, 0, 1.5 - 0.3 * distance}, {0.05, distance, 0.08}, 0.0, surface_texture(60, 0.8, random));

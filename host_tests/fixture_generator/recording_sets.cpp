@@ -37,13 +37,20 @@ FrameRecipe roll_sweep(const FrameIndex& index) {
     return recipe_of(street({}, random), pose, "street", index);
 }
 
+// The camera drives up to 25 m through a standing scene, so the vehicle ahead stands well beyond that.
+StreetStyle style_of_drive() {
+    StreetStyle style;
+    style.vehicle_ahead_nearest = 40.0;
+    return style;
+}
+
 // One drive along one street: the scene comes from the recording's seed, the pose from the frame's.
 FrameRecipe level(const FrameIndex& index) {
     Lcg layout(index.recording_seed), random(index.frame_seed());
     Pose pose;
     pose.pitch = radians(1.0) + uniform_angle(random, -0.6, 0.6);
     pose.position = {1.1 * index.frame, 0.1, 1.4 + random.uniform(-0.01, 0.01)};
-    return recipe_of(street({}, layout), pose, "street", index);
+    return recipe_of(street(style_of_drive(), layout), pose, "street", index);
 }
 
 struct SpeedBump {
@@ -65,7 +72,7 @@ Pose pose_over_bump(const RoadSurface& road, double front_axle) {
 FrameRecipe speed_bump(const FrameIndex& index) {
     Lcg layout(index.recording_seed);
     const SpeedBump bump;
-    Scene scene = street({}, layout);
+    Scene scene = street(style_of_drive(), layout);
     scene.road.bump_start = bump.start;
     scene.road.bump_length = bump.length;
     scene.road.bump_height = bump.height;

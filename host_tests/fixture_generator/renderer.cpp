@@ -8,7 +8,8 @@
 namespace fixtures {
 namespace {
 
-constexpr int supersampling = 2;  // rays a pixel, in each direction: softens the outlines; textures are filtered on their own
+// Rays a pixel, in each direction: softens the outlines; textures are filtered on their own.
+constexpr int supersampling = 2;
 
 struct Camera {
     Rig rig;

@@ -1,4 +1,5 @@
-// A street as geometry: a road surface, solids that stand on it, a bonnet fixed to the camera; and the first thing a ray hits.
+// A street as geometry: a road surface, solids that stand on it, a bonnet fixed to the camera; and the first thing a
+// ray hits.
 #pragma once
 #include <opencv2/core.hpp>
 

@@ -45,7 +45,8 @@ FilterShape filter_shape(const Footprint& footprint) {
     return shape;
 }
 
-// Grain finer than a pixel is invisible; grain finer than the sample spacing averages out as 1/√n, as it would in a real pixel.
+// Grain finer than a pixel is invisible; grain finer than the sample spacing averages out as 1/√n, as it would in a
+// real pixel.
 double octave_weight(double wavelength, const FilterShape& shape) {
     const double visible = unit_step(0.6, 1.4, wavelength / shape.short_length);
     return visible * std::sqrt(std::min(1.0, wavelength / shape.spacing));

@@ -140,7 +140,7 @@ static int32_t noise_of(const roadpose_heading_t *instance, const roadpose_fit_t
     for (unsigned i = 0; i < instance->flows; i++) {
         const sight_t s = look(&instance->flow[i], &fit->motion);
         if (absolute(s.e_q22) < limit_q22 && outward(&s, fit->noise_q22)) {
-            const unsigned bin = (unsigned)((int64_t)absolute(s.e_q22) * (int64_t)NOISE_BINS / limit_q22);
+            const unsigned bin = (unsigned)absolute(s.e_q22) * NOISE_BINS / (unsigned)limit_q22; /* |e| < 2^20 */
             bins[bin] = (uint16_t)(bins[bin] + 1u);
             total++;
         }

@@ -113,7 +113,8 @@ void add_car(Scene& scene, double x, double y, double yaw, Lcg& random) {
     const double paint_grey = random.uniform(50, 200), paint_contrast = random.uniform(0.4, 1.0);
     const Texture paint = surface_texture(paint_grey, paint_contrast, random);
     const Texture glass = surface_texture(random.uniform(40, 80), 0.7, random);
-    add_turned_box(scene, {x, y, base + 0.5 * (0.2 + bonnet_top)}, {length / 2, width / 2, 0.5 * (bonnet_top - 0.2)}, yaw, paint);
+    add_turned_box(scene, {x, y, base + 0.5 * (0.2 + bonnet_top)},
+                   {length / 2, width / 2, 0.5 * (bonnet_top - 0.2)}, yaw, paint);
     add_turned_box(scene, {x - 0.2, y, base + 0.5 * (bonnet_top + roof)},
                    {length * 0.28, width * 0.45, 0.5 * (roof - bonnet_top)}, yaw, glass);
 }

@@ -11,6 +11,7 @@
 #ifndef ROADPOSE_CAN_PORT_H
 #define ROADPOSE_CAN_PORT_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus

@@ -53,12 +53,12 @@ static void begin_drive(void) {
 /* PLANAR_RIG with the line of one key exchanged ("" takes it away). */
 static const char *rig_with(const char *key, const char *line) {
     static char rig[1024];
-    const char *old = strstr(PLANAR_RIG, key);
-    const char *rest = old != NULL ? strchr(old, '\n') + 1 : PLANAR_RIG + strlen(PLANAR_RIG);
+    static const char whole[] = PLANAR_RIG;
+    const char *old = strstr(whole, key);
+    const char *rest = old != NULL ? strchr(old, '\n') + 1 : whole + strlen(whole);
 
     old = old != NULL ? old : rest;
-    (void)snprintf(rig, sizeof rig, "%.*s%s%s%s", (int)(old - PLANAR_RIG), PLANAR_RIG, line, *line != '\0' ? "\n" : "",
-                   rest);
+    (void)snprintf(rig, sizeof rig, "%.*s%s%s%s", (int)(old - whole), whole, line, *line != '\0' ? "\n" : "", rest);
     return rig;
 }
 

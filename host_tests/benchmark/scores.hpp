@@ -17,6 +17,11 @@ struct PoseErrors {
         roll.add(pose.roll_deg - truth.roll_deg);
         height.add(1000 * (pose.height_m - truth.height_m));
     }
+    void add(const PoseErrors& more) {
+        pitch.add(more.pitch);
+        roll.add(more.roll);
+        height.add(more.height);
+    }
     int count() const { return pitch.count(); }
 };
 

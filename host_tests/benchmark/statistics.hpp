@@ -11,6 +11,10 @@ public:
         count_ += 1, sum_ += error, squares_ += error * error, absolute_ += std::abs(error);
         worst_ = std::max(worst_, std::abs(error));
     }
+    void add(const Errors& more) {
+        count_ += more.count_, sum_ += more.sum_, squares_ += more.squares_, absolute_ += more.absolute_;
+        worst_ = std::max(worst_, more.worst_);
+    }
     int count() const { return count_; }
     double mean() const { return count_ ? sum_ / count_ : 0; }
     double mean_absolute() const { return count_ ? absolute_ / count_ : 0; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""recursion.py FOLDER...: no function of the core reaches itself. Names of static functions are taken as one."""
+"""recursion.py FOLDER...: no function of the core reaches itself."""
 import re
 import sys
 
@@ -7,13 +7,22 @@ import c_source
 
 
 def call_graph(folders):
-    bodies = {}
-    for path in c_source.sources(*folders):
-        for function in c_source.functions(path.read_text(encoding="utf-8")):
-            bodies.setdefault(function.name, []).append(function.body)
-    # A name counts with and without parentheses: a pointer to a function may be called later.
-    return {name: {word for body in texts for word in re.findall(r"\b[A-Za-z_]\w*\b", body) if word in bodies}
-            for name, texts in bodies.items()}
+    """(file, function): the functions that its body names. A name is looked for in the same file first."""
+    functions = [(str(path), function) for path in c_source.sources(*folders)
+                 for function in c_source.functions(path.read_text(encoding="utf-8"))]
+    places = {}
+    for path, function in functions:
+        places.setdefault(function.name, set()).add(path)
+
+    def resolve(path, name):
+        return {(path, name)} if path in places[name] else {(place, name) for place in places[name]}
+
+    graph = {(path, function.name): set() for path, function in functions}
+    for path, function in functions:
+        # A name counts with and without parentheses: a pointer to a function may be called later.
+        for name in set(re.findall(r"(?<![.>\w])[A-Za-z_]\w*\b", function.body)) & set(places):
+            graph[path, function.name] |= resolve(path, name)
+    return graph
 
 
 def reach(graph, start):
@@ -28,7 +37,7 @@ def reach(graph, start):
 
 def check(folders):
     graph = call_graph(folders)
-    return [f"{name}() reaches itself" for name in sorted(graph) if name in reach(graph, name)]
+    return [f"{path}: {name}() reaches itself" for path, name in sorted(graph) if (path, name) in reach(graph, (path, name))]
 
 
 if __name__ == "__main__":

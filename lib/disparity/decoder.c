@@ -61,7 +61,7 @@ bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_dispar
 static inline uint16_t sample_at(const uint8_t *bytes, bool swap_bytes) {
     uint16_t sample;
     memcpy(&sample, bytes, sizeof sample); /* any alignment; compilers make one load of it */
-    return swap_bytes ? (uint16_t)((sample >> 8) | (unsigned)(sample << 8)) : sample;
+    return swap_bytes ? (uint16_t)((uint32_t)sample >> 8 | (uint32_t)sample << 8) : sample;
 }
 
 /* Q8 disparity of a sample, 0 for no match. Value and scale: (2^16 - 1) * 2^16 + 128 < 2^32; the 128 rounds. */

@@ -82,10 +82,6 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     return true;
 }
 
-void roadpose_levels_open_all(uint32_t *level_open) {
-    memset(level_open, 0xFF, ROADPOSE_MAX_DISPARITY / 8);
-}
-
 void roadpose_levels_open(roadpose_moments_t *moments) {
     for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
         moments->level[level].open = true;

@@ -4,9 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "can_bus.h"
 #include "csv.h"
 #include "fault.h"
 #include "options.h"
+#include "pace.h"
 #include "pgm.h"
 #include "recording.h"
 #include "rig_file.h"
@@ -18,6 +20,8 @@
 struct roadpose_camera_context {
     uint8_t samples[2 * ROADPOSE_MAX_WIDTH * ROADPOSE_MAX_HEIGHT]; /* the driver's one buffer */
     bool is_lent;                                                  /* to the port */
+    bool prints;                                                   /* the poses, on standard output */
+    can_bus_t can;
 };
 
 typedef struct {
@@ -37,9 +41,9 @@ static void take_back(roadpose_camera_context_t *camera, const roadpose_frame_t 
 
 static void print_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uint64_t time_us,
                        const roadpose_pose_t *pose) {
-    (void)camera;
-    (void)time_us;
-    csv_print_pose(stdout, frame_id, pose);
+    if (camera->prints)
+        csv_print_pose(stdout, frame_id, pose);
+    can_bus_publish(&camera->can, pose, 0, time_us); /* one buffer: no frame is ever displaced */
 }
 
 static void rescale(uint8_t *samples, const rig_file_t *rig_file) {
@@ -53,10 +57,14 @@ static void rescale(uint8_t *samples, const rig_file_t *rig_file) {
     }
 }
 
+static uint64_t frame_time_us(const replay_t *replay, size_t index) {
+    return (uint64_t)index * UINT64_C(1000000000) / (uint64_t)replay->rig_file.rate_millihz;
+}
+
 /* What a driver's interrupt does when its buffer is full: the path is only for the fault. */
 static bool expose(replay_t *replay, size_t index, const char *path) {
     const roadpose_rig_t *rig = &replay->rig_file.rig;
-    const uint64_t time_us = (uint64_t)index * UINT64_C(1000000000) / (uint64_t)replay->rig_file.rate_millihz;
+    const uint64_t time_us = frame_time_us(replay, index);
     roadpose_frame_t frame = {replay->camera.samples, 2u * rig->width_px, rig->width_px, rig->height_px, NULL, 0};
 
     if (!pgm_read(replay->camera.samples, rig->width_px, rig->height_px, path))
@@ -81,13 +89,29 @@ static bool work_off(replay_t *replay, const char *path) {
     return fault(path, "the estimator refuses the frame (result %d)", counters.last_refusal);
 }
 
+/* A CAN cycle, and what is left of the time until the next frame. */
+static void send_and_wait(replay_t *replay, const pace_t *pace, size_t index) {
+    const uint64_t time_us = frame_time_us(replay, index);
+    const uint64_t next_us = frame_time_us(replay, index + 1u);
+    const bool is_last = index + 1u == replay->recording.count;
+    bool is_pending = can_bus_cycle(&replay->camera.can, time_us);
+    uint64_t now_us;
+
+    while (pace_wait(pace, time_us, next_us, is_last, is_pending, &now_us))
+        is_pending = can_bus_poll(&replay->camera.can, now_us);
+}
+
 static int play(replay_t *replay) {
     const size_t count = replay->recording.count;
     char path[PATH_BYTES];
+    pace_t pace;
     size_t index;
 
-    csv_print_header(stdout);
+    pace_begin(&pace, replay->options.speed_permille);
+    if (replay->camera.prints)
+        csv_print_header(stdout);
     for (index = 0; index < count; index++) {
+        pace_frame(&pace);
         if (!recording_frame_path(&replay->recording, index, path) || !expose(replay, index, path) ||
             !work_off(replay, path))
             return EXIT_BAD_RECORDING;
@@ -95,6 +119,7 @@ static int play(replay_t *replay) {
             (void)fault("standard output", "cannot be written: %s", strerror(errno));
             return EXIT_FAILURE;
         }
+        send_and_wait(replay, &pace, index);
         progress_show(index + 1, count);
     }
     progress_clear();
@@ -117,6 +142,16 @@ static bool set_up(replay_t *replay) {
     return result == ROADPOSE_OK || fault(path, "the estimator refuses the rig (result %d)", (int)result);
 }
 
+/* The bus is opened last: whoever listens hears nothing of a recording that cannot be played. */
+static int play_on_bus(replay_t *replay) {
+    int status = EXIT_FAILURE;
+
+    replay->camera.prints = replay->options.candump_path == NULL || strcmp(replay->options.candump_path, "-") != 0;
+    if (can_bus_open(&replay->camera.can, &replay->options, frame_time_us(replay, 1)))
+        status = play(replay);
+    return can_bus_close(&replay->camera.can) ? status : EXIT_FAILURE;
+}
+
 int main(int count, char *arguments[]) {
     static replay_t replay; /* too large for a stack */
     int status = EXIT_BAD_RECORDING;
@@ -130,7 +165,7 @@ int main(int count, char *arguments[]) {
         break;
     }
     if (set_up(&replay))
-        status = play(&replay);
+        status = play_on_bus(&replay);
     recording_close(&replay.recording);
     return status;
 }

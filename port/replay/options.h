@@ -7,6 +7,11 @@
 typedef struct {
     roadpose_settings_t settings;
     const char *recording;
+    const char *can_interface; /* NULL: not asked for */
+    const char *candump_path;  /* NULL: not asked for; "-": standard output, then without the CSV */
+    uint8_t e2e_profile;       /* of the CAN frames: 1, 2 or 5 */
+    bool has_speed;            /* speed_permille was given */
+    uint32_t speed_permille;   /* 1000: as recorded; 0: as fast as possible */
 } options_t;
 
 typedef enum {

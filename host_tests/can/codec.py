@@ -1,13 +1,17 @@
 """The C code of port/can as a Python object, and seeded random numbers for the tests."""
+import math
 import os
 import pathlib
 import random
 import subprocess
+from fractions import Fraction
 
 import cantools
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 MESSAGES = ("RoadposePose", "RoadposeQuality", "RoadposeStatus")
+PI = Fraction(314159265358979323846264338327950288419, 10**38)
+DEGREES = Fraction(180, 10**6) / PI  # of one micro-radian
 DBC = {1: "roadpose.dbc", 2: "roadpose.dbc", 5: "roadpose_p05.dbc"}
 
 
@@ -45,3 +49,14 @@ def is_header(signal):
 def codes(message, data):
     """Raw codes of a frame by cantools: {signal: integer}."""
     return message.decode(data, decode_choices=False, scaling=False)
+
+
+def exact(number):
+    return Fraction(str(number))
+
+
+def expected_code(signal, value):
+    """Nearest code of a physical value by exact fractions; the invalid code beyond the DBC's range."""
+    code = math.floor((value - exact(signal.offset)) / exact(signal.scale) + Fraction(1, 2))
+    last = (exact(signal.maximum) - exact(signal.offset)) / exact(signal.scale)
+    return code if 0 <= code <= last else invalid_code(signal)

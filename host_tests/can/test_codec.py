@@ -5,11 +5,10 @@ import unittest
 from fractions import Fraction
 
 import codec
+from codec import DEGREES, exact
 
 RANDOM_VALUES = 4000
 INT32 = (-2**31, 2**31 - 1)
-PI = Fraction(314159265358979323846264338327950288419, 10**38)
-DEGREES = Fraction(180, 10**6) / PI  # of one micro-radian
 
 # Field by field in the order of the codec's command: signal, bit of valid, ends of the C type, physical unit of 1.
 FIELDS = {
@@ -19,17 +18,6 @@ FIELDS = {
                 ("RangeFar", 16, (0, 2**32 - 1), Fraction(1, 1000))],
 }
 COUNTS = ["FrameCount", "RefusedCount", "OverwrittenCount", "DroppedCount"]
-
-
-def exact(number):
-    return Fraction(str(number))
-
-
-def expected_code(signal, value, unit):
-    """Nearest code by exact fractions; the invalid code beyond the DBC's range."""
-    code = math.floor((value * unit - exact(signal.offset)) / exact(signal.scale) + Fraction(1, 2))
-    last = (exact(signal.maximum) - exact(signal.offset)) / exact(signal.scale)
-    return code if 0 <= code <= last else codec.invalid_code(signal)
 
 
 class Codec(unittest.TestCase):
@@ -59,7 +47,7 @@ class Codec(unittest.TestCase):
             found = codec.codes(message, bytes.fromhex(answer))
             for (name, bit, _, unit), value in zip(FIELDS[kind], values):
                 signal = message.get_signal_by_name(name)
-                code = expected_code(signal, value, unit) if valid & bit else codec.invalid_code(signal)
+                code = codec.expected_code(signal, value * unit) if valid & bit else codec.invalid_code(signal)
                 self.assertEqual(code, found[name], f"{name} of {value}, valid {valid}: {answer}")
             self.assertEqual("000000", answer[:6], "the header is left to E2E")
 

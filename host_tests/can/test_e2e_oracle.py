@@ -7,31 +7,16 @@ import e2e.p02
 import e2e.p05
 
 import codec
+import oracle
+from oracle import DATA_ID, LARGEST
 
 FRAMES = 600
-LARGEST = {1: 14, 2: 15, 5: 255}
-DATA_ID = 0x5250
 
 
 class Oracle(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.lists = [bytes(map(int, line.split())) for line in codec.run([f"list {message}" for message in range(3)])]
-
-    def protect(self, profile, message, counter, frame):
-        """The frame as autosar-e2e protects it. The counter is put where the profile has it."""
-        data = bytearray(frame)
-        if profile == 5:
-            data[2] = counter
-            e2e.p05.e2e_p05_protect(data, DATA_ID + message, length=8, increment_counter=False)
-        else:
-            data[1] = data[1] & 0xF0 | counter
-            if profile == 1:
-                e2e.p01.e2e_p01_protect(data, DATA_ID + message, data_id_mode=e2e.p01.E2E_P01_DATAID_BOTH, length=8,
-                                        increment_counter=False)
-            else:
-                e2e.p02.e2e_p02_protect(data, self.lists[message], length=8, increment_counter=False)
-        return bytes(data)
+        cls.lists = oracle.lists()
 
     def check(self, profile, message, frame):
         if profile == 1:
@@ -57,13 +42,13 @@ class Oracle(unittest.TestCase):
             answers = codec.run([f"protect {profile} {message} {counter} {frame.hex()}"
                                  for message, counter, frame in cases])
             for (message, counter, frame), answer in zip(cases, answers):
-                self.assertEqual(self.protect(profile, message, counter, frame).hex().upper(), answer)
+                self.assertEqual(oracle.protect(profile, message, counter, frame).hex().upper(), answer)
                 self.assertTrue(self.check(profile, message, bytes.fromhex(answer)))
         self.each_profile(same)
 
     def test_the_receiver_accepts_what_the_oracle_protects(self):
         def accepts(profile):
-            answers = codec.run([f"check {profile} {message} {self.protect(profile, message, counter, frame).hex()}"
+            answers = codec.run([f"check {profile} {message} {oracle.protect(profile, message, counter, frame).hex()}"
                                  for message, counter, frame in self.cases(profile)])
             self.assertEqual(["initial"] * 3 + ["ok"] * (len(answers) - 3), answers)
         self.each_profile(accepts)
@@ -73,7 +58,7 @@ class Oracle(unittest.TestCase):
             random = codec.seeded(f"damage {profile}")
             frames = []
             for message, counter, frame in self.cases(profile):
-                data = bytearray(self.protect(profile, message, counter, frame))
+                data = bytearray(oracle.protect(profile, message, counter, frame))
                 for _ in range(random.randint(1, 4)):
                     data[random.randrange(8)] ^= 1 << random.randrange(8)
                 frames.append((message, bytes(data)))

@@ -1,0 +1,33 @@
+/* What a board supplies to the firmware main: where its objects lie, how it starts, and how it counts instructions.
+ * One file a board: port/cortex_m/board.c, port/riscv/board.c, port/firmware/hosted_board.c. */
+#ifndef ROADPOSE_BOARD_H
+#define ROADPOSE_BOARD_H
+
+#include <stdint.h>
+
+/* Memory of the library (state, ports, stack), as large as the product gives it; and the memory that the camera's DMA
+ * writes to. On a hosted machine both are ordinary memory. */
+#ifdef ROADPOSE_BARE_METAL
+#define BOARD_LIBRARY_RAM __attribute__((section(".library_ram")))
+#define BOARD_EXTERNAL_RAM __attribute__((section(".external_ram")))
+#else
+#define BOARD_LIBRARY_RAM
+#define BOARD_EXTERNAL_RAM
+#endif
+
+#define BOARD_ARGUMENTS_MAX 8
+
+typedef struct {
+    int count;
+    char *values[BOARD_ARGUMENTS_MAX];
+} board_arguments_t;
+
+/* Starts the counter. count, values: what main() got. Fills *arguments, on bare metal from the command line that the
+ * debugger or emulator gives; values[0] is the program. */
+void board_start(board_arguments_t *arguments, int count, char *const values[]);
+
+/* Executed instructions since the last call, the call's own included; 0 where the board cannot count them. Call it at
+ * least once in 100 million instructions. */
+uint32_t board_instructions(void);
+
+#endif

@@ -1,0 +1,24 @@
+/* What the frames cost in executed instructions. */
+#ifndef ROADPOSE_COST_H
+#define ROADPOSE_COST_H
+
+#include <stdint.h>
+
+typedef struct {
+    uint32_t frames;
+    uint64_t instructions; /* of all frames */
+    uint32_t worst_frame;
+    uint32_t worst_slice;
+    uint32_t frame; /* of the running frame, so far */
+} cost_t;
+
+/* Adds one call of the cyclic task. */
+void cost_add_slice(cost_t *cost, uint32_t instructions);
+
+/* Ends a frame. */
+void cost_end_frame(cost_t *cost);
+
+/* One line on standard error, so that standard output stays the same on every machine. Nothing where nothing counts. */
+void cost_print(const cost_t *cost);
+
+#endif

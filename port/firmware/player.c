@@ -1,0 +1,150 @@
+#include "player.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "board.h"
+#include "candump.h"
+#include "cost.h"
+#include "csv.h"
+#include "fault.h"
+#include "pgm.h"
+#include "rig_file.h"
+#include "roadpose/camera_port.h"
+#include "roadpose/can.h"
+
+#define NAME_BYTES 32
+
+/* The camera: one buffer that its DMA fills. */
+struct roadpose_camera_context {
+    bool is_lent;
+    bool has_pose;
+    roadpose_pose_t pose;
+};
+
+/* The CAN controller: what it sends goes to a file. */
+struct roadpose_can_context {
+    roadpose_candump_t log;
+    uint64_t now_us;
+};
+
+/* What the component needs on an ECU, and all that it needs. */
+typedef struct {
+    roadpose_t estimator;
+    roadpose_camera_port_t port;
+    roadpose_can_transmit_t transmit;
+    roadpose_camera_context_t camera;
+} component_t;
+
+static BOARD_LIBRARY_RAM component_t component;
+static BOARD_EXTERNAL_RAM uint8_t samples[2 * ROADPOSE_MAX_WIDTH * ROADPOSE_MAX_HEIGHT];
+
+/* The rest of the emulated world. */
+static rig_file_t rig_file;
+static struct roadpose_can_context can;
+static cost_t cost;
+
+static void take_back(roadpose_camera_context_t *camera, const roadpose_frame_t *frame, uint32_t frame_id) {
+    (void)frame;
+    (void)frame_id;
+    camera->is_lent = false;
+}
+
+static void keep_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uint64_t time_us,
+                      const roadpose_pose_t *pose) {
+    (void)frame_id;
+    (void)time_us;
+    camera->pose = *pose;
+    camera->has_pose = true;
+}
+
+static roadpose_can_send_t send(roadpose_can_context_t *bus, uint32_t id, const uint8_t data[8], uint64_t deadline_us) {
+    (void)deadline_us;
+    roadpose_candump_write(&bus->log, bus->now_us, id, data);
+    return ROADPOSE_CAN_SENT;
+}
+
+/* The driver's interrupt: a frame is complete. */
+static bool expose(uint32_t index, uint64_t time_us, const char *path) {
+    const roadpose_rig_t *rig = &rig_file.rig;
+    const roadpose_frame_t frame = {samples, 2u * rig->width_px, rig->width_px, rig->height_px, NULL, 0};
+
+    if (rig_file.is_rescaled)
+        return fault(path, "the firmware plays no recording whose disparity_scale is not a power of two");
+    if (!pgm_read(samples, rig->width_px, rig->height_px, path))
+        return false;
+    component.camera.has_pose = false;
+    component.camera.is_lent = roadpose_camera_frame_ready(&component.port, &frame, index, time_us);
+    return component.camera.is_lent || fault(path, "the camera port does not take the frame");
+}
+
+/* The cyclic task, one slice a call, until it has worked off the frame. */
+static bool work_off(const char *path) {
+    roadpose_camera_progress_t progress = ROADPOSE_CAMERA_WORKING;
+
+    (void)board_instructions();
+    while (progress == ROADPOSE_CAMERA_WORKING) {
+        progress = roadpose_camera_task(&component.port, 1);
+        cost_add_slice(&cost, board_instructions());
+    }
+    cost_end_frame(&cost);
+    if (progress == ROADPOSE_CAMERA_FINISHED && component.camera.has_pose && !component.camera.is_lent)
+        return true;
+    return fault(path, "the estimator refuses the frame");
+}
+
+/* The CAN cycle that follows the frame. */
+static void tell_bus(uint64_t time_us) {
+    roadpose_can_estimate_t estimate;
+    roadpose_camera_counters_t counters;
+
+    roadpose_camera_read_counters(&component.port, &counters);
+    roadpose_can_estimate(&estimate, &component.camera.pose);
+    roadpose_can_transmit_publish(&component.transmit, &estimate, counters.frames_displaced, time_us);
+    can.now_us = time_us;
+    (void)roadpose_can_transmit_cycle(&component.transmit, time_us); /* this bus takes everything */
+}
+
+static bool play_frame(const char *folder, uint32_t index) {
+    const uint64_t time_us = index * UINT64_C(1000000000) / (uint64_t)rig_file.rate_millihz;
+    char name[NAME_BYTES];
+    static char path[PATH_BYTES]; /* too large for the stack of an ECU */
+
+    (void)snprintf(name, sizeof name, "disparity/%06" PRIu32 ".pgm", index);
+    if (!join_path(path, folder, name) || !expose(index, time_us, path) || !work_off(path))
+        return false;
+    csv_print_pose(stdout, index, &component.camera.pose);
+    tell_bus(time_us);
+    return fflush(stdout) == 0;
+}
+
+static bool set_up(const char *folder) {
+    const roadpose_camera_platform_t platform = {&component.camera, NULL, NULL, take_back, NULL, keep_pose};
+    const roadpose_can_port_t bus = {&can, send, NULL};
+    static char path[PATH_BYTES];
+
+    if (!join_path(path, folder, "rig.yml") || !rig_file_read(&rig_file, path))
+        return false;
+    if (roadpose_state_bytes() != ROADPOSE_STATE_BYTES)
+        return fault(NULL, "the library was built with other limits");
+    if (roadpose_init(&component.estimator, &rig_file.rig, &rig_file.format, NULL) != ROADPOSE_OK ||
+        roadpose_camera_init(&component.port, &platform, &component.estimator) != ROADPOSE_OK ||
+        roadpose_can_transmit_init(&component.transmit, NULL, &bus) != ROADPOSE_CAN_DONE)
+        return fault(path, "the estimator refuses the rig");
+    return true;
+}
+
+bool player_play(const char *folder, uint32_t count, const char *can_log) {
+    bool is_good = set_up(folder);
+    uint32_t index;
+
+    if (!is_good)
+        return false;
+    if (!roadpose_candump_open(&can.log, can_log, "can0"))
+        return fault(can_log, "cannot be written");
+    csv_print_header(stdout);
+    for (index = 0; is_good && index < count; index++)
+        is_good = play_frame(folder, index);
+    cost_print(&cost);
+    return roadpose_candump_close(&can.log) && is_good;
+}

@@ -6,7 +6,9 @@
 # Environment: ROADPOSE_BUILD_DIR (default build-host-tests), ROADPOSE_RECORDINGS, ROADPOSE_TEST_SEED.
 set -eu
 
-packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 ca-certificates'
+packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 python3-venv ca-certificates'
+# The same bits from a 32-bit build: only where the machine can run one.
+[ "$(dpkg --print-architecture)" != amd64 ] || packages="$packages gcc-multilib"
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${ROADPOSE_BUILD_DIR:-$root/build-host-tests}

@@ -137,17 +137,20 @@ static void try_pose(const roadpose_rig_t *rig, true_pose_t truth) {
     if (pose.status == ROADPOSE_STATUS_OK) compare(rig, truth, &pose, must ? 1 : 10);
 }
 
+/* Every mounting for the images of common size, every fifth for the largest, which take their time to paint. */
 static int try_rig(const roadpose_rig_t *rig) {
+    const int step = rig->width_px > 1000 ? 5 : 1;
+    int tried = 0;
     const roadpose_disparity_format_t format = format_u16_q8();
     const roadpose_settings_t settings = widest_limits();
     TEST_ASSERT_EQUAL(ROADPOSE_OK, roadpose_init(&instance, rig, &format, &settings));
     for (int i = 0; i < COUNT(rolls); i++)
         for (int j = 0; j < COUNT(pitches); j++)
-            for (int k = 0; k < COUNT(heights); k++) {
+            for (int k = (i + j) % step; k < COUNT(heights); k += step, tried++) {
                 const true_pose_t truth = {pitches[j], rolls[i], heights[k]};
                 try_pose(rig, truth);
             }
-    return COUNT(rolls) * COUNT(pitches) * COUNT(heights);
+    return tried;
 }
 
 static void test_every_mounting_that_shows_enough_road(void) {

@@ -1,0 +1,84 @@
+#!/bin/sh
+# Plays a recording onto a virtual CAN interface in several ways and captures what comes. Runs in the virtual machine, or
+# in a network namespace of a kernel that has CAN. Needs ip, candump and the modules loaded.
+#   drive.sh REPLAY CANDUMP RECORDING OUTPUT
+# Writes OUTPUT/<scenario>.log (capture), .csv (poses), .txt (what the replay said), .status (its exit status).
+set -u
+
+replay=$1
+candump=$2
+recording=$3
+output=$4
+
+up() {
+    ip link add dev vcan0 type vcan 2>/dev/null
+    ip link set dev vcan0 up
+}
+
+gone() {
+    ip link del dev vcan0 2>/dev/null
+}
+
+# begin SCENARIO [options]: listener first, then the replay in the background. "any": it survives an interface that goes.
+begin() {
+    scenario=$1
+    shift
+    "$candump" -L -D any >"$output/$scenario.log" 2>/dev/null &
+    listener=$!
+    sleep 0.3
+    { "$replay" --can vcan0 "$@" "$recording" >"$output/$scenario.csv" 2>"$output/$scenario.txt"
+      echo $? >"$output/$scenario.status"; } &
+    player=$!
+}
+
+finish() {
+    wait "$player"
+    sleep 0.3
+    kill "$listener"
+    wait "$listener" 2>/dev/null
+    gone
+}
+
+steady() {
+    up
+    begin steady --speed 0
+    finish
+}
+
+# Two outages: one of a few cycles, one that takes the counters of profile 1 once round.
+down_and_up() {
+    up
+    begin down_and_up
+    sleep 2
+    ip link set dev vcan0 down
+    sleep 0.5
+    ip link set dev vcan0 up
+    sleep 0.8
+    ip link set dev vcan0 down
+    sleep 1.7
+    ip link set dev vcan0 up
+    finish
+}
+
+missing_at_first() {
+    gone
+    begin missing_at_first
+    sleep 2
+    up
+    finish
+}
+
+removed_and_back() {
+    up
+    begin removed_and_back --e2e 5
+    sleep 2
+    gone
+    sleep 1
+    up
+    finish
+}
+
+for scenario in steady down_and_up missing_at_first removed_and_back; do
+    "$scenario"
+    echo "$scenario done"
+done

@@ -1,0 +1,17 @@
+#!/busybox sh
+# First process of the virtual machine: loads CAN, drives, sends the results through the second serial port, powers off.
+/busybox mkdir -p /bin /proc /sys /dev /tmp /output
+/busybox --install -s /bin
+export PATH=/bin
+mount -t proc none /proc
+mount -t sysfs none /sys
+mount -t devtmpfs none /dev
+for module in /modules/*.ko; do
+    insmod "$module" || echo "init: cannot load $module"
+done
+sh /drive.sh /roadpose-replay /candump /drive /output
+stty -F /dev/ttyS1 raw
+tar -c -f - -C /output . >/dev/ttyS1
+sync
+echo "init: finished"
+poweroff -f

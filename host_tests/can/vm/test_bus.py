@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""roadpose-replay on a real SocketCAN: drive.sh plays a drive onto vcan0 and takes the interface away meanwhile; what
+candump heard is compared with the CSV. In a network namespace where this kernel has virtual CAN, else in a virtual
+machine. Environment: ROADPOSE_REPLAY, ROADPOSE_FIXTURES, ROADPOSE_CAN_CODEC, ROADPOSE_VM_PARTS (see fetch.sh);
+ROADPOSE_BUS_IN=vm or here decides otherwise."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+
+import capture  # noqa: E402 (found by the line above)
+import drive  # noqa: E402
+import machine  # noqa: E402
+
+REPLAY = os.environ["ROADPOSE_REPLAY"]
+FRAMES = drive.FRAMES
+
+
+def kernel_has_can():
+    """Whether a virtual CAN interface can be made in a network namespace of this kernel."""
+    if not all(map(shutil.which, ("unshare", "ip", "candump"))):
+        return False
+    probe = ["unshare", "--net", "ip", "link", "add", "dev", "vcan0", "type", "vcan"]
+    return subprocess.run(probe, capture_output=True, check=False).returncode == 0
+
+
+def play_here(recording, output):
+    subprocess.run(["unshare", "--net", "sh", HERE / "drive.sh", REPLAY, shutil.which("candump"), recording, output],
+                   check=True, stdout=subprocess.DEVNULL)
+
+
+def play(recording, work, output):
+    where = os.environ.get("ROADPOSE_BUS_IN") or ("here" if kernel_has_can() else "vm")
+    print(f"on a bus in {'this kernel' if where == 'here' else 'a virtual machine'}", flush=True)
+    if where == "here":
+        play_here(recording, output)
+    else:
+        machine.drive(os.environ["ROADPOSE_VM_PARTS"], REPLAY, recording, work, output)
+
+
+class Bus(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.scratch.name)
+        cls.output = folder / "output"
+        cls.output.mkdir()
+        recording = drive.make(os.environ["ROADPOSE_FIXTURES"], folder / "drive")
+        play(recording, folder / "machine", cls.output)
+        cls.poses = subprocess.run([REPLAY, recording], capture_output=True, text=True, check=True).stdout
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def text(self, scenario, kind):
+        return (self.output / f"{scenario}.{kind}").read_text(encoding="ascii")
+
+    def missing(self, scenario, profile=1):
+        """Rows whose frames are not in the capture; every other byte on the bus is explained by the CSV."""
+        self.assertEqual("0", self.text(scenario, "status").strip(), self.text(scenario, "txt"))
+        self.assertEqual(self.poses, self.text(scenario, "csv"), "the bus has no influence on the poses")
+        missing = capture.missing_frames(self.text(scenario, "log"), self.text(scenario, "csv"), profile)
+        rows = capture.missing_rows(missing)
+        print(f"{scenario}: {len(missing)} frames missing, rows {rows}\n{self.text(scenario, 'txt')}", end="", flush=True)
+        self.assertIn(f"{3 * FRAMES - len(missing)} CAN frames sent, {len(missing)} dropped", self.text(scenario, "txt"))
+        return rows
+
+    def assert_windows(self, rows, *lengths):
+        """The rows are as many windows without a hole as there are lengths, each about as long as it says."""
+        windows = [[rows[0]]] if rows else []
+        for before, row in zip(rows, rows[1:]):
+            if row == before + 1:
+                windows[-1].append(row)
+            else:
+                windows.append([row])
+        self.assertEqual(len(lengths), len(windows), rows)
+        for window, length in zip(windows, lengths):
+            self.assertLessEqual(abs(len(window) - length), 0.3 * length + 3, rows)
+
+    def test_steady(self):
+        self.assertEqual([], self.missing("steady"))
+
+    def test_down_and_up(self):
+        rows = self.missing("down_and_up")
+        self.assert_windows(rows, 5, 17)
+        self.assertNotIn(FRAMES - 1, rows)
+        self.assertIn("down 2 times", self.text("down_and_up", "txt"))
+
+    def test_missing_at_first(self):
+        rows = self.missing("missing_at_first")
+        self.assert_windows(rows, 23)
+        self.assertEqual(0, rows[0])
+        self.assertIn("no interface of this name", self.text("missing_at_first", "txt"))
+
+    def test_removed_and_back(self):
+        rows = self.missing("removed_and_back", profile=5)
+        self.assert_windows(rows, 10)
+        self.assertNotIn(FRAMES - 1, rows)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -43,7 +43,7 @@ extern "C" {
 #endif
 
 /* Tracks that vote on each hypothesis of the search: evenly spread ones of those that move. */
-#define ROADPOSE_MAX_VOTERS 96
+#define ROADPOSE_MAX_VOTERS 64
 
 /* What the vehicle says about its motion between the two frames. */
 typedef struct {
@@ -151,6 +151,7 @@ typedef struct {
     roadpose_lens_t lens;
     roadpose_flow_t flow[ROADPOSE_MAX_TRACKS];
     uint16_t flows;
+    uint16_t flows_moving; /* the first ones */
     roadpose_voters_t voters;
     int32_t history_urad[ROADPOSE_YAW_HISTORY];
     int32_t history_sigma_urad[ROADPOSE_YAW_HISTORY];

@@ -7,11 +7,12 @@
 #include "heading/heading.h"
 #include "heading/yaw_angle.h"
 
-#define HYPOTHESES 64u
-#define HYPOTHESES_TURNING 6u /* for each of the rotations that are tried */
-#define FOCUS_ROUNDS 4u
-#define MOTION_ROUNDS 6u
-#define LAST_ROUNDS 3u
+#define HYPOTHESES 56u
+#define HYPOTHESES_TURNING 5u /* for each of the rotations that are tried */
+#define FOCUS_ROUNDS 2u, 1u /* coarse, fine */
+#define MOTION_ROUNDS 2u, 2u
+#define LAST_ROUNDS 1u
+#define LAST_ROUNDS_TURNED 2u /* the focus has just been moved */
 #define BETTER_Q8 2048       /* a fit that began in a turn must cost this much less: 8 squared deviations */
 #define SIGNIFICANT_Q8 2048  /* below this chi-square (three degrees of freedom: 95 % quantile 7.8) no rotation is seen */
 #define START_NOISE_PERCENT 70
@@ -26,6 +27,7 @@ typedef struct {
     int32_t rate_deviation;  /* of the free rotation about the vertical, a frame */
     int32_t free_deviation;  /* of the focus along the road, rotation free */
     int32_t deviation;       /* of the chosen focus along the road */
+    uint16_t agreeing;       /* moving tracks that agree with it */
     int32_t left_q16;        /* share of the found rotation that is taken for noise, 0...65536 */
 } outcome_t;
 
@@ -83,28 +85,38 @@ static uint8_t track_gate(const roadpose_heading_t *instance, const roadpose_yaw
     return few ? ROADPOSE_YAW_STANDING : ROADPOSE_YAW_OK;
 }
 
-/* The free fit, begun at the focus; where the vehicle gives no yaw rate also begun in a turn, if a turn scores better. */
+/* The better of two free fits; *other loses a near tie. */
+static void take_cheaper(const roadpose_heading_t *instance, roadpose_fit_t *fit, const roadpose_fit_t *other) {
+    const int32_t noise = (other->noise_q22 < fit->noise_q22) ? other->noise_q22 : fit->noise_q22;
+    if (roadpose_fit_cost(instance, &other->motion, noise) + BETTER_Q8 <
+        roadpose_fit_cost(instance, &fit->motion, noise)) {
+        *fit = *other;
+    }
+}
+
+/* The free fit, begun at the focus; where the vehicle gives no yaw rate begun in a turn as well, if a turn scores
+ * better, and only there if it scores much better. */
 static bool fit_free(roadpose_heading_t *instance, bool rate_known, uint32_t score, uint32_t *random, outcome_t *out) {
     const int32_t start = roadpose_noise_max_q22(instance) * START_NOISE_PERCENT / 150;
-    out->motion = out->focus;
-    out->motion.noise_q22 = (start > out->focus.noise_q22) ? start : out->focus.noise_q22;
-    bool found = roadpose_fit_motion(instance, &out->motion, MOTION_ROUNDS);
-    if (rate_known) {
-        return found;
-    }
     roadpose_fit_t turning = {.motion = {{0, 0}, {0, 0, 0}}, .noise_q22 = start};
     const uint32_t turning_score =
-        roadpose_focus_search_turning(instance, HYPOTHESES_TURNING, random, &turning.motion);
+        rate_known ? 0 : roadpose_focus_search_turning(instance, HYPOTHESES_TURNING, random, &turning.motion);
+    out->motion = out->focus;
+    out->motion.noise_q22 = (start > out->focus.noise_q22) ? start : out->focus.noise_q22;
+    if (turning_score * 8u > score * 9u) {
+        out->motion = turning;
+        return roadpose_fit_motion(instance, &out->motion, MOTION_ROUNDS);
+    }
+    const bool found = roadpose_fit_motion(instance, &out->motion, MOTION_ROUNDS);
     if (turning_score <= score || !roadpose_fit_motion(instance, &turning, MOTION_ROUNDS)) {
         return found;
     }
-    const int32_t noise = (turning.noise_q22 < out->motion.noise_q22) ? turning.noise_q22 : out->motion.noise_q22;
-    const int64_t cost = roadpose_fit_cost(instance, &turning.motion, noise);
-    if (!found || cost + BETTER_Q8 < roadpose_fit_cost(instance, &out->motion.motion, noise)) {
+    if (!found) {
         out->motion = turning;
-        found = true;
+        return true;
     }
-    return found;
+    take_cheaper(instance, &out->motion, &turning);
+    return true;
 }
 
 /* Rotation found beyond the given one, in the order and scale of the unknowns: q28, clamped to 2^27. */
@@ -155,7 +167,7 @@ static void yaw_direction(const int32_t *normal_q30, int32_t *c_q16) {
 /* Fits, choice, and what they leave open. False: the tracks do not tell one focus. */
 static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
     uint32_t random = instance->settings.seed;
-    roadpose_sums_t sums;
+    roadpose_pass_t pass;
     roadpose_factors_t factors;
     int32_t along[ROADPOSE_UNKNOWNS_MOTION];
     const int32_t about_y[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
@@ -166,19 +178,22 @@ static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *
         !fit_free(instance, rate_known, score, &random, out)) {
         return false;
     }
-    roadpose_fit_sums(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, &sums);
-    if (!roadpose_factorise(&sums, ROADPOSE_UNKNOWNS_MOTION, &factors)) {
+    roadpose_fit_pass(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1, &pass);
+    if (!roadpose_factorise(&pass.sums, ROADPOSE_UNKNOWNS_MOTION, &factors)) {
         return false;
     }
     choose(&factors, out);
     yaw_direction(normal_q30, along);
     out->free_deviation = roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_MOTION, along, out->motion.noise_q22);
     out->rate_deviation = roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_MOTION, about_y, out->motion.noise_q22);
-    if (!roadpose_fit_focus(instance, &out->chosen, LAST_ROUNDS)) {
+    const unsigned rounds = (out->left_q16 < 65536) ? LAST_ROUNDS_TURNED : LAST_ROUNDS;
+    if (!roadpose_fit_focus(instance, &out->chosen, 0, rounds)) {
         return false;
     }
-    roadpose_fit_sums(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, &sums);
-    const bool told = roadpose_factorise(&sums, ROADPOSE_UNKNOWNS_FOCUS, &factors);
+    roadpose_fit_pass(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, 1, &pass);
+    out->chosen.noise_q22 = pass.noise_q22;
+    out->agreeing = pass.agreeing;
+    const bool told = roadpose_factorise(&pass.sums, ROADPOSE_UNKNOWNS_FOCUS, &factors);
     out->deviation = told ? roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_FOCUS, along, out->chosen.noise_q22) : 0;
     return told;
 }
@@ -204,7 +219,7 @@ static void report(const roadpose_heading_t *instance, const roadpose_motion_t *
     const roadpose_lens_t *lens = &instance->lens;
     const int64_t noise_millipx = (int64_t)out->chosen.noise_q22 * 1000 / lens->px_q22;
     yaw->noise_millipx = (uint16_t)roadpose_clamp(noise_millipx, 0, UINT16_MAX);
-    yaw->tracks_agreeing = roadpose_fit_agreeing(instance, &out->chosen);
+    yaw->tracks_agreeing = out->agreeing;
     /* focus * f: 2^24 * 2^22 millipx; q24 millipx to q8 px */
     yaw->focus_u_q8 =
         lens->cu_q8 + (int32_t)((int64_t)out->chosen.motion.focus_q24[0] * lens->focal_millipx / 65536000);

@@ -8,7 +8,17 @@
 #define TURN_LIMIT_Q24 (INT32_C(1) << 22)
 #define R_MIN_Q16 256 /* nearer to the focus than this a flow tells nothing: 2 px at a focal length of 500 px */
 #define NOISE_BINS 64u
+#define MANY_FLOWS 96u
 #define CUT_QUARTERS 13 /* Tukey's biweight ends at 13/4 standard deviations */
+
+/* A motion, prepared for looking at many flows. */
+typedef struct {
+    int32_t fx_q16;
+    int32_t fy_q16;
+    const int32_t *turn_q24;
+    bool turns;
+    int32_t short_q22; /* flows shorter than this may point anywhere */
+} view_t;
 
 /* One flow seen from the focus. */
 typedef struct {
@@ -17,7 +27,9 @@ typedef struct {
     int32_t dx_q22;
     int32_t dy_q22;
     int32_t inverse_q15; /* 1 / r */
+    int32_t off_q22;     /* |e| */
     int32_t e_q22;       /* flow across the direction of expansion */
+    bool outward;        /* streams away from the focus, or is too short to tell */
 } sight_t;
 
 int32_t roadpose_noise_min_q22(const roadpose_heading_t *instance) {
@@ -28,65 +40,72 @@ int32_t roadpose_noise_max_q22(const roadpose_heading_t *instance) {
     return instance->lens.px_q22 * 3 / 2;
 }
 
-/* |m| <= 2 + 1 (q16 < 2^17.6); |turn flow| <= 2.75, so |d| < 2^23.8 in q22; cross < 2 * 2^41.4; r >= 2^8, so
- * 1/r <= 2^23; e: 2^26.4 * 2^23 < 2^50. r is at least twice the flow's length: a longer flow reaches behind the focus. */
-static sight_t look(const roadpose_flow_t *flow, const roadpose_expansion_t *motion) {
+static view_t view_of(const roadpose_expansion_t *motion, int32_t noise_q22) {
+    const int32_t *turn = motion->turn_q24;
+    return (view_t){roadpose_floor_shift32(motion->focus_q24[0], 8), roadpose_floor_shift32(motion->focus_q24[1], 8),
+                    turn, (turn[0] | turn[1] | turn[2]) != 0, 3 * noise_q22};
+}
+
+/* |m| <= 2 + 1 (q16 < 2^17.6); |turn flow| <= 2.75, so |d| < 2^23.8 in q22; cross and inner < 2 * 2^41.4; r >= 2^8, so
+ * 1/r <= 2^23; e: 2^26.4 * 2^23 < 2^50. r is at least twice the flow's longer side: a longer flow reaches behind the focus. */
+static sight_t look(const roadpose_flow_t *flow, const view_t *view) {
     sight_t s;
-    int32_t turned[2];
-    roadpose_turn_flow(flow->mx_q16, flow->my_q16, motion->turn_q24, turned);
-    s.mx_q16 = flow->mx_q16 - roadpose_floor_shift32(motion->focus_q24[0], 8);
-    s.my_q16 = flow->my_q16 - roadpose_floor_shift32(motion->focus_q24[1], 8);
+    int32_t turned[2] = {0, 0};
+    if (view->turns) {
+        roadpose_turn_flow(flow->mx_q16, flow->my_q16, view->turn_q24, turned);
+    }
+    s.mx_q16 = flow->mx_q16 - view->fx_q16;
+    s.my_q16 = flow->my_q16 - view->fy_q16;
     s.dx_q22 = flow->dx_q22 - turned[0];
     s.dy_q22 = flow->dy_q22 - turned[1];
+    const int32_t side_q22 = roadpose_longer_side(s.dx_q22, s.dy_q22);
     const int32_t r = roadpose_length(s.mx_q16, s.my_q16);
-    const int32_t twice = roadpose_length(s.dx_q22, s.dy_q22) >> 5;
-    const int32_t longer = (r > twice) ? r : twice;
+    const int32_t longer = (r > (side_q22 >> 5)) ? r : (side_q22 >> 5);
     s.inverse_q15 = (int32_t)((UINT32_C(1) << 31) / (uint32_t)((longer > R_MIN_Q16) ? longer : R_MIN_Q16));
     const int64_t cross_q38 = (int64_t)s.mx_q16 * s.dy_q22 - (int64_t)s.my_q16 * s.dx_q22;
-    s.e_q22 = (int32_t)roadpose_floor_shift(roadpose_floor_shift(cross_q38, 16) * s.inverse_q15, 15);
+    const int64_t inner_q38 = (int64_t)s.mx_q16 * s.dx_q22 + (int64_t)s.my_q16 * s.dy_q22;
+    s.off_q22 = (int32_t)(((roadpose_abs(cross_q38) >> 16) * s.inverse_q15) >> 15);
+    s.e_q22 = (cross_q38 < 0) ? -s.off_q22 : s.off_q22;
+    s.outward = inner_q38 > 0 || side_q22 < view->short_q22;
     return s;
 }
 
-/* Streams away from the focus, or is too short to tell. */
-static bool outward(const sight_t *s, int32_t noise_q22) {
-    const int64_t inner = (int64_t)s->mx_q16 * s->dx_q22 + (int64_t)s->my_q16 * s->dy_q22;
-    return inner > 0 || roadpose_length(s->dx_q22, s->dy_q22) < 3 * noise_q22;
+/* Where Tukey's biweight ends, and 2^30 over it: noise <= 1.5 px at f = 50 px, 2^17, so the cut is below 2^19. */
+typedef struct {
+    int32_t q22;
+    int32_t inverse;
+} cut_t;
+
+static cut_t cut_of(int32_t noise_q22) {
+    const int32_t q22 = noise_q22 * CUT_QUARTERS / 4;
+    return (cut_t){q22, (INT32_C(1) << 30) / q22};
 }
 
-static int32_t absolute(int32_t x) {
-    return (x < 0) ? -x : x;
-}
-
-/* (e / cut)^2 in q24, for |e| < cut <= 2^19: e * 2^30 / cut <= 2^30. */
-static int32_t share_q24(int32_t e_q22, int32_t cut_q22) {
-    const int32_t inverse = (INT32_C(1) << 30) / cut_q22;
-    const int32_t u_q12 = (int32_t)(((int64_t)absolute(e_q22) * inverse) >> 18);
+/* (e / cut)^2 in q24, for |e| < cut: e * 2^30 / cut <= 2^30. */
+static int32_t share_q24(int32_t off_q22, cut_t cut) {
+    const int32_t u_q12 = (int32_t)((uint32_t)off_q22 * (uint32_t)cut.inverse >> 18);
     return u_q12 * u_q12;
 }
 
-static int32_t cut_of(int32_t noise_q22) {
-    return noise_q22 * CUT_QUARTERS / 4; /* noise <= 1.5 px at f = 50 px: 2^17; cut < 2^19 */
-}
-
 /* Tukey's biweight (1 - u^2)^2, q8. */
-static int32_t weight_q8(const sight_t *s, int32_t noise_q22, int32_t cut_q22) {
-    if (absolute(s->e_q22) >= cut_q22 || !outward(s, noise_q22)) {
+static int32_t weight_q8(int32_t off_q22, cut_t cut) {
+    if (off_q22 >= cut.q22) {
         return 0;
     }
-    const int32_t rest_q12 = 4096 - (share_q24(s->e_q22, cut_q22) >> 12);
+    const int32_t rest_q12 = 4096 - (share_q24(off_q22, cut) >> 12);
     return (rest_q12 * rest_q12) >> 16;
 }
 
-/* Derivatives of -e. By the focus, times 16: d / r, |d / r| <= 0.52 as r >= 2 |d|: q20 < 2^20. By the rotation: the unit
+/* Derivatives of -e. By the focus, times 16: d / r, each component <= 1/2 as r is at least twice it: q20 <= 2^19. By the rotation: the unit
  * vector across times the turn flow of one radian, |.| <= 1.04 * sqrt(2) * 5 < 8: q16 < 2^19. */
 static void focus_row(const sight_t *s, int32_t *j_q16) {
-    j_q16[0] = (int32_t)roadpose_floor_shift((int64_t)s->dy_q22 * s->inverse_q15, 17);
-    j_q16[1] = (int32_t)roadpose_floor_shift(-(int64_t)s->dx_q22 * s->inverse_q15, 17);
+    j_q16[0] = (int32_t)((int64_t)s->dy_q22 * s->inverse_q15 / 131072);
+    j_q16[1] = (int32_t)(-(int64_t)s->dx_q22 * s->inverse_q15 / 131072);
 }
 
 static int32_t across(const sight_t *s, int64_t u_q16, int64_t v_q16) {
-    const int64_t cross_q16 = roadpose_floor_shift(s->mx_q16 * v_q16 - s->my_q16 * u_q16, 16);
-    return (int32_t)roadpose_floor_shift(cross_q16 * s->inverse_q15, 15);
+    const int64_t cross_q16 = (s->mx_q16 * v_q16 - s->my_q16 * u_q16) / 65536;
+    return (int32_t)(cross_q16 * s->inverse_q15 / 32768);
 }
 
 /* Rotations in the order x, z, y. */
@@ -97,25 +116,6 @@ static void turn_row(const sight_t *s, const roadpose_flow_t *flow, int32_t *j_q
     j_q16[0] = across(s, xy, 65536 + ((y * y) >> 16));
     j_q16[1] = across(s, y, -x);
     j_q16[2] = across(s, -65536 - ((x * x) >> 16), -xy);
-}
-
-void roadpose_fit_sums(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
-                       roadpose_sums_t *sums) {
-    const int32_t cut_q22 = cut_of(fit->noise_q22);
-    memset(sums, 0, sizeof *sums);
-    for (unsigned i = 0; i < instance->flows; i++) {
-        const sight_t s = look(&instance->flow[i], &fit->motion);
-        const int32_t weight = weight_q8(&s, fit->noise_q22, cut_q22);
-        if (weight == 0) {
-            continue;
-        }
-        int32_t j_q16[ROADPOSE_UNKNOWNS_MOTION];
-        focus_row(&s, j_q16);
-        if (unknowns == ROADPOSE_UNKNOWNS_MOTION) {
-            turn_row(&s, &instance->flow[i], &j_q16[ROADPOSE_UNKNOWNS_FOCUS]);
-        }
-        roadpose_sums_add(sums, unknowns, j_q16, s.e_q22, weight);
-    }
 }
 
 /* Median from a histogram of |e| below `limit`, linear within its bin, times 1.4826. */
@@ -132,21 +132,58 @@ static int32_t noise_of_histogram(const uint16_t *bins, unsigned total, int32_t 
     return (int32_t)(median * 1518 / 1024);
 }
 
-/* The noise at *motion, from the flows within four times the noise so far. */
-static int32_t noise_of(const roadpose_heading_t *instance, const roadpose_fit_t *fit) {
-    uint16_t bins[NOISE_BINS] = {0};
-    const int32_t limit_q22 = 4 * fit->noise_q22;
-    unsigned total = 0;
-    for (unsigned i = 0; i < instance->flows; i++) {
-        const sight_t s = look(&instance->flow[i], &fit->motion);
-        if (absolute(s.e_q22) < limit_q22 && outward(&s, fit->noise_q22)) {
-            const unsigned bin = (unsigned)absolute(s.e_q22) * NOISE_BINS / (unsigned)limit_q22; /* |e| < 2^20 */
-            bins[bin] = (uint16_t)(bins[bin] + 1u);
-            total++;
-        }
+/* Histogram of |e| below four times the noise so far. */
+typedef struct {
+    uint16_t bins[NOISE_BINS];
+    unsigned total;
+    int32_t limit_q22; /* <= 4 * 2^17 */
+    uint32_t inverse;  /* 64 * 2^24 over it */
+} histogram_t;
+
+static void histogram_add(histogram_t *histogram, int32_t off_q22) {
+    if (off_q22 < histogram->limit_q22) {
+        const unsigned bin = (uint32_t)off_q22 * histogram->inverse >> 24; /* e < limit: below 2^30 */
+        histogram->bins[bin] = (uint16_t)(histogram->bins[bin] + 1u);
+        histogram->total++;
     }
-    const int32_t noise = (total == 0) ? fit->noise_q22 : noise_of_histogram(bins, total, limit_q22);
+}
+
+static int32_t noise_of(const roadpose_heading_t *instance, const histogram_t *histogram, int32_t noise_q22) {
+    if (histogram->total == 0) {
+        return noise_q22;
+    }
+    const int32_t noise = noise_of_histogram(histogram->bins, histogram->total, histogram->limit_q22);
     return (int32_t)roadpose_clamp(noise, roadpose_noise_min_q22(instance), roadpose_noise_max_q22(instance));
+}
+
+void roadpose_fit_pass(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
+                       unsigned stride, roadpose_pass_t *pass) {
+    histogram_t histogram = {.limit_q22 = 4 * fit->noise_q22};
+    histogram.inverse = (NOISE_BINS << 24) / (uint32_t)histogram.limit_q22;
+    const cut_t cut = cut_of(fit->noise_q22);
+    const view_t view = view_of(&fit->motion, fit->noise_q22);
+    unsigned agreeing = 0;
+    memset(&pass->sums, 0, sizeof pass->sums);
+    for (unsigned i = 0; i < instance->flows; i += stride) {
+        const sight_t s = look(&instance->flow[i], &view);
+        if (!s.outward) {
+            continue;
+        }
+        histogram_add(&histogram, s.off_q22);
+        agreeing += (i < instance->flows_moving && s.off_q22 <= 3 * fit->noise_q22) ? 1u : 0u;
+        const int32_t weight = weight_q8(s.off_q22, cut);
+        if (weight == 0) {
+            continue;
+        }
+        int32_t j_q16[ROADPOSE_UNKNOWNS_MOTION];
+        focus_row(&s, j_q16);
+        if (unknowns == ROADPOSE_UNKNOWNS_MOTION) {
+            turn_row(&s, &instance->flow[i], &j_q16[ROADPOSE_UNKNOWNS_FOCUS]);
+        }
+        roadpose_sums_add(&pass->sums, unknowns, j_q16, s.e_q22, weight);
+    }
+    pass->noise_q22 = noise_of(instance, &histogram, fit->noise_q22);
+    pass->agreeing = (uint16_t)agreeing;
 }
 
 /* A focus unknown is a sixteenth of the focus: its q28 is the focus in q24. */
@@ -162,12 +199,13 @@ static void step_turn(int32_t *turn_q24, int32_t x_q28) {
                                         TURN_LIMIT_Q24);
 }
 
-static bool step(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns) {
-    roadpose_sums_t sums;
+/* One round: a pass, and the step that it asks for. */
+static bool improve(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
+    roadpose_pass_t pass;
     roadpose_factors_t factors;
     int32_t x_q28[ROADPOSE_UNKNOWNS_MOTION];
-    roadpose_fit_sums(instance, fit, unknowns, &sums);
-    if (!roadpose_factorise(&sums, unknowns, &factors)) {
+    roadpose_fit_pass(instance, fit, unknowns, stride, &pass);
+    if (!roadpose_factorise(&pass.sums, unknowns, &factors)) {
         return false;
     }
     roadpose_solve(&factors, x_q28);
@@ -176,58 +214,47 @@ static bool step(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsign
         step_turn(&fit->motion.turn_q24[0], x_q28[2]);
         step_turn(&fit->motion.turn_q24[2], x_q28[3]);
         step_turn(&fit->motion.turn_q24[1], x_q28[4]);
+        fit->noise_q22 = (pass.noise_q22 < fit->noise_q22) ? pass.noise_q22 : fit->noise_q22;
+    } else {
+        fit->noise_q22 = pass.noise_q22;
     }
     return true;
 }
 
-bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned rounds) {
-    for (unsigned round = 0; round < rounds; round++) {
-        if (!step(instance, fit, ROADPOSE_UNKNOWNS_FOCUS)) {
-            return false;
-        }
-        fit->noise_q22 = noise_of(instance, fit);
+/* The first rounds only have to come near: of many flows they look at every second one. */
+static bool improve_often(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned coarse,
+                          unsigned fine) {
+    const unsigned stride = (instance->flows >= MANY_FLOWS) ? 2u : 1u;
+    bool told = true;
+    for (unsigned round = 0; told && round < coarse + fine; round++) {
+        told = improve(instance, fit, unknowns, (round < coarse) ? stride : 1u);
     }
-    return true;
+    return told;
 }
 
-bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned rounds) {
-    for (unsigned round = 0; round < rounds; round++) {
-        if (!step(instance, fit, ROADPOSE_UNKNOWNS_MOTION)) {
-            return false;
-        }
-        const int32_t noise = (round + 2 < rounds) ? noise_of(instance, fit) : fit->noise_q22;
-        fit->noise_q22 = (noise < fit->noise_q22) ? noise : fit->noise_q22;
-    }
-    return true;
+bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine) {
+    return improve_often(instance, fit, ROADPOSE_UNKNOWNS_FOCUS, coarse, fine);
+}
+
+bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine) {
+    return improve_often(instance, fit, ROADPOSE_UNKNOWNS_MOTION, coarse, fine);
 }
 
 /* rho = (1 - (1 - u^2)^3) * cut^2 / 3 in noise^2: at most (13/4)^2 / 3 = 3.52 (q8: 901). */
-static int32_t cost_q8(int32_t e_q22, int32_t cut_q22) {
-    const int64_t rest_q12 = 4096 - (share_q24(e_q22, cut_q22) >> 12);
+static int32_t cost_q8(int32_t off_q22, cut_t cut) {
+    const int64_t rest_q12 = 4096 - (share_q24(off_q22, cut) >> 12);
     const int64_t cube_q12 = (rest_q12 * rest_q12 * rest_q12) >> 24;
     return (int32_t)((4096 - cube_q12) * ROADPOSE_COST_OUTLIER_Q8 / 4096);
 }
 
 int64_t roadpose_fit_cost(const roadpose_heading_t *instance, const roadpose_expansion_t *motion, int32_t noise_q22) {
-    const int32_t cut_q22 = cut_of(noise_q22);
+    const cut_t cut = cut_of(noise_q22);
+    const view_t view = view_of(motion, noise_q22);
     int64_t sum = 0;
     for (unsigned i = 0; i < instance->flows; i++) {
-        const sight_t s = look(&instance->flow[i], motion);
-        const bool in = absolute(s.e_q22) < cut_q22 && outward(&s, noise_q22);
-        sum += in ? cost_q8(s.e_q22, cut_q22) : ROADPOSE_COST_OUTLIER_Q8;
+        const sight_t s = look(&instance->flow[i], &view);
+        const bool in = s.off_q22 < cut.q22 && s.outward;
+        sum += in ? cost_q8(s.off_q22, cut) : ROADPOSE_COST_OUTLIER_Q8;
     }
     return sum;
-}
-
-uint16_t roadpose_fit_agreeing(const roadpose_heading_t *instance, const roadpose_fit_t *fit) {
-    const int32_t moving_q22 = roadpose_flow_moving_q22(instance);
-    uint16_t agreeing = 0;
-    for (unsigned i = 0; i < instance->flows; i++) {
-        const roadpose_flow_t *flow = &instance->flow[i];
-        const sight_t s = look(flow, &fit->motion);
-        const bool moving = roadpose_length(flow->dx_q22, flow->dy_q22) >= moving_q22;
-        const bool agrees = absolute(s.e_q22) <= 3 * fit->noise_q22 && outward(&s, fit->noise_q22);
-        agreeing = (uint16_t)(agreeing + ((moving && agrees) ? 1u : 0u));
-    }
-    return agreeing;
 }

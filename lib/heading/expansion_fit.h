@@ -12,23 +12,27 @@ typedef struct {
     int32_t noise_q22;
 } roadpose_fit_t;
 
-/* Sums of the normal equations at *fit. */
-void roadpose_fit_sums(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
-                       roadpose_sums_t *sums);
+/* Normal equations at *fit, and what its flows show there. */
+typedef struct {
+    roadpose_sums_t sums;
+    int32_t noise_q22;
+    uint16_t agreeing; /* moving flows within three deviations of *fit that stream away from the focus */
+} roadpose_pass_t;
 
-/* Improves the focus, rotation kept, and measures the noise. False where the flows do not tell it. */
-bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned rounds);
+/* One pass over every stride-th flow. */
+void roadpose_fit_pass(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
+                       unsigned stride, roadpose_pass_t *pass);
+
+/* Improves the focus, rotation kept, and measures the noise, in coarse rounds and then fine ones. False where the flows do not tell it. */
+bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine);
 
 /* Improves focus and rotation; the noise only falls. False where the flows do not tell them. */
-bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned rounds);
+bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine);
 
 /* Robust cost (Tukey's) of a motion at a given noise, q8: about the sum of squared deviations, at most
  * ROADPOSE_COST_OUTLIER_Q8 for each flow. */
 #define ROADPOSE_COST_OUTLIER_Q8 901
 int64_t roadpose_fit_cost(const roadpose_heading_t *instance, const roadpose_expansion_t *motion, int32_t noise_q22);
-
-/* Counts the flows that agree with *fit. */
-uint16_t roadpose_fit_agreeing(const roadpose_heading_t *instance, const roadpose_fit_t *fit);
 
 /* Limits of the noise: 0.08 px and 1.5 px, in q22. */
 int32_t roadpose_noise_min_q22(const roadpose_heading_t *instance);

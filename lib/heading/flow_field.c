@@ -46,7 +46,8 @@ static bool flow_of_track(const roadpose_lens_t *lens, const roadpose_track_t *t
     return u && v;
 }
 
-int32_t roadpose_flow_moving_q22(const roadpose_heading_t *instance) {
+/* Shortest length of a moving flow. */
+static int32_t moving_min_q22(const roadpose_heading_t *instance) {
     /* <= 20 000 * 83 886 < 2^31 in 64 bits */
     return (int32_t)((int64_t)instance->settings.moving_min_millipx * instance->lens.px_q22 / 1000);
 }
@@ -64,9 +65,21 @@ static uint32_t count_32(size_t count) {
     return (count > UINT32_MAX) ? UINT32_MAX : (uint32_t)count;
 }
 
+/* Moving flows from the front, the others from the back of the `kept` places. */
+static void place(roadpose_heading_t *instance, const roadpose_flow_t *flow, size_t kept, int32_t moving_q22) {
+    if (roadpose_length(flow->dx_q22, flow->dy_q22) >= moving_q22) {
+        instance->flow[instance->flows_moving] = *flow;
+        instance->flows_moving++;
+    } else {
+        instance->flow[kept - 1u - (size_t)(instance->flows - instance->flows_moving)] = *flow;
+    }
+    instance->flows++;
+}
+
 /* Keeps `kept` of `usable` tracks, evenly: an error term as in Bresenham's line, 0 <= error < usable + kept. */
 static void keep_evenly(roadpose_heading_t *instance, const roadpose_track_t *tracks, size_t count, size_t usable,
                         size_t kept) {
+    const int32_t moving_q22 = moving_min_q22(instance);
     size_t error = 0;
     roadpose_flow_t flow;
     for (size_t i = 0; i < count && instance->flows < kept; i++) {
@@ -76,8 +89,7 @@ static void keep_evenly(roadpose_heading_t *instance, const roadpose_track_t *tr
         error += kept;
         if (error >= usable) {
             error -= usable;
-            instance->flow[instance->flows] = flow;
-            instance->flows++;
+            place(instance, &flow, kept, moving_q22);
         }
     }
 }
@@ -87,14 +99,10 @@ void roadpose_flow_take(roadpose_heading_t *instance, const roadpose_track_t *tr
     const size_t usable = usable_tracks(&instance->lens, tracks, count);
     const size_t kept = (usable > ROADPOSE_MAX_TRACKS) ? ROADPOSE_MAX_TRACKS : usable;
     instance->flows = 0;
+    instance->flows_moving = 0;
     keep_evenly(instance, tracks, count, usable, kept);
-    const int32_t moving_q22 = roadpose_flow_moving_q22(instance);
-    for (unsigned i = 0; i < instance->flows; i++) {
-        const roadpose_flow_t *flow = &instance->flow[i];
-        yaw->tracks_moving = (uint16_t)(yaw->tracks_moving +
-                                        ((roadpose_length(flow->dx_q22, flow->dy_q22) >= moving_q22) ? 1u : 0u));
-    }
     yaw->tracks_used = instance->flows;
+    yaw->tracks_moving = instance->flows_moving;
     yaw->dropped_outside = count_32(count - usable);
     yaw->dropped_limit = count_32(usable - kept);
 }

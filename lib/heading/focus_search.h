@@ -13,7 +13,7 @@ void roadpose_voters_choose(roadpose_heading_t *instance);
 uint32_t roadpose_focus_search(roadpose_heading_t *instance, unsigned hypotheses, uint32_t *random,
                                roadpose_expansion_t *best);
 
-/* The same for rotations of up to 1.5 degrees to either side of best->turn_q24, in steps of a quarter of a degree. */
+/* The same for rotations of up to 1.5 degrees to either side of best->turn_q24, in steps of 0.3 degrees. */
 uint32_t roadpose_focus_search_turning(roadpose_heading_t *instance, unsigned hypotheses, uint32_t *random,
                                        roadpose_expansion_t *best);
 

@@ -19,7 +19,7 @@ static unsigned shift_of(const roadpose_sums_t *sums, unsigned unknowns) {
 }
 
 /* One column of the decomposition. h holds the remaining Schur complement: |h| <= 2^34 (positive definite, so no entry
- * exceeds the largest diagonal); |L h| <= 2^27 * 2^34 = 2^61. */
+ * exceeds the largest diagonal): 2^54 in q20; |L h| <= 2^27 * 2^34 = 2^61. */
 static bool eliminate(int64_t h[][ROADPOSE_UNKNOWNS_MOTION], unsigned column, int64_t pivot_min,
                       roadpose_factors_t *factors) {
     const int64_t pivot = h[column][column];
@@ -28,7 +28,7 @@ static bool eliminate(int64_t h[][ROADPOSE_UNKNOWNS_MOTION], unsigned column, in
     }
     factors->d[column] = pivot;
     for (unsigned i = column + 1; i < factors->unknowns; i++) {
-        factors->l[i][column] = roadpose_clamp(roadpose_ratio(h[i][column], pivot, 20), -L_LIMIT, L_LIMIT);
+        factors->l[i][column] = roadpose_clamp(h[i][column] * (INT64_C(1) << 20) / pivot, -L_LIMIT, L_LIMIT);
         for (unsigned k = column + 1; k <= i; k++) {
             const int64_t part = roadpose_floor_shift(factors->l[i][column] * h[k][column], 20);
             h[i][k] = roadpose_clamp(h[i][k] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
@@ -62,7 +62,7 @@ bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose
 /* L^T x = y, from the last unknown up. |L| <= 2^27, |x| <= 2^28: products below 2^55, sums of four below 2^57. */
 void roadpose_solve(const roadpose_factors_t *factors, int32_t *x_q28) {
     for (unsigned i = factors->unknowns; i-- > 0;) {
-        int64_t x = roadpose_ratio(factors->z[i], factors->d[i], 22); /* q46 / q40, 22 more bits: q28 */
+        int64_t x = factors->z[i] * (INT64_C(1) << 22) / factors->d[i]; /* q46 / q40, 22 more bits: q28; < 2^56 */
         x = roadpose_clamp(x, -(INT64_C(1) << 40), INT64_C(1) << 40);
         for (unsigned k = i + 1; k < factors->unknowns; k++) {
             x -= roadpose_floor_shift(factors->l[k][i] * x_q28[k], 20);

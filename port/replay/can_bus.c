@@ -52,13 +52,13 @@ bool can_bus_open(can_bus_t *bus, const options_t *options, uint64_t cycle_us) {
            (bus->log_path == NULL || open_log(bus));
 }
 
-void can_bus_publish(can_bus_t *bus, const roadpose_pose_t *pose, uint32_t displaced, uint64_t time_us) {
-    roadpose_can_estimate_t estimate;
+void can_bus_pose(can_bus_t *bus, const roadpose_pose_t *pose) {
+    roadpose_can_estimate(&bus->estimate, pose);
+    bus->has_estimate = true;
+}
 
-    if (!bus->is_on)
-        return;
-    roadpose_can_estimate(&estimate, pose);
-    roadpose_can_transmit_publish(&bus->transmit, &estimate, displaced, time_us);
+void can_bus_yaw(can_bus_t *bus, int32_t yaw_urad, uint8_t yaw_status) {
+    roadpose_can_estimate_yaw(&bus->estimate, yaw_urad, yaw_status);
 }
 
 /* Each change is told once, not at every frame. */
@@ -82,6 +82,9 @@ bool can_bus_cycle(can_bus_t *bus, uint64_t time_us) {
     if (!bus->is_on)
         return false;
     bus->output.now_us = time_us;
+    if (bus->has_estimate)
+        roadpose_can_transmit_publish(&bus->transmit, &bus->estimate, 0, time_us); /* no frame is ever displaced here */
+    bus->has_estimate = false;
     return waits(bus, roadpose_can_transmit_cycle(&bus->transmit, time_us));
 }
 

@@ -15,6 +15,8 @@ typedef struct {
     const char *log_path;  /* NULL: the bus only */
     roadpose_can_context_t output;
     roadpose_can_transmit_t transmit;
+    roadpose_can_estimate_t estimate; /* of this frame, until the next cycle */
+    bool has_estimate;
     roadpose_can_counts_t reported; /* what the user has been told of */
 } can_bus_t;
 
@@ -22,8 +24,9 @@ typedef struct {
  * waited for while playing; what can never work is reported as a fault, and false is returned. */
 bool can_bus_open(can_bus_t *bus, const options_t *options, uint64_t cycle_us);
 
-/* The newest pose, for the next cycle. */
-void can_bus_publish(can_bus_t *bus, const roadpose_pose_t *pose, uint32_t displaced, uint64_t time_us);
+/* What the frame came to, for the next cycle; the yaw, where there is one, after the pose. yaw_status 0: yaw_urad holds. */
+void can_bus_pose(can_bus_t *bus, const roadpose_pose_t *pose);
+void can_bus_yaw(can_bus_t *bus, int32_t yaw_urad, uint8_t yaw_status);
 
 /* Begins a cycle, offers again what waits. Both return whether frames wait for room. Times are those of the recording. */
 bool can_bus_cycle(can_bus_t *bus, uint64_t time_us);

@@ -41,9 +41,10 @@ static void take_back(roadpose_camera_context_t *camera, const roadpose_frame_t 
 
 static void print_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uint64_t time_us,
                        const roadpose_pose_t *pose) {
+    (void)time_us;
     if (camera->prints)
         csv_print_pose(stdout, frame_id, pose);
-    can_bus_publish(&camera->can, pose, 0, time_us); /* one buffer: no frame is ever displaced */
+    can_bus_pose(&camera->can, pose);
 }
 
 static void rescale(uint8_t *samples, const rig_file_t *rig_file) {

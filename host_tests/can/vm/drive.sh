@@ -19,13 +19,32 @@ gone() {
     ip link del dev vcan0 2>/dev/null
 }
 
+# The kernel lists who listens to all interfaces; 10 seconds at most.
+wait_for_listener() {
+    tries=0
+    until grep -q raw /proc/net/can/rcvlist_all || [ "$tries" -ge 100 ]; do
+        tries=$((tries + 1))
+        sleep 0.1
+    done
+}
+
+wait_for_silence() {
+    before=-1
+    now=$(wc -l <"$output/$scenario.log")
+    while [ "$now" -ne "$before" ]; do
+        sleep 0.5
+        before=$now
+        now=$(wc -l <"$output/$scenario.log")
+    done
+}
+
 # begin SCENARIO [options]: listener first, then the replay in the background. "any": it survives an interface that goes.
 begin() {
     scenario=$1
     shift
     "$candump" -L -D any >"$output/$scenario.log" 2>/dev/null &
     listener=$!
-    sleep 0.3
+    wait_for_listener
     { "$replay" --can vcan0 "$@" "$recording" >"$output/$scenario.csv" 2>"$output/$scenario.txt"
       echo $? >"$output/$scenario.status"; } &
     player=$!
@@ -33,7 +52,7 @@ begin() {
 
 finish() {
     wait "$player"
-    sleep 0.3
+    wait_for_silence
     kill "$listener"
     wait "$listener" 2>/dev/null
     gone

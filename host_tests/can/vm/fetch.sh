@@ -11,8 +11,21 @@ rm -rf "$folder"
 mkdir -p "$folder/modules" "$folder/packages"
 cd "$folder/packages"
 
-kernel=$(apt-cache depends linux-image-amd64 | sed -n 's/.*Depends: \(linux-image-[0-9][^ ]*-amd64\).*/\1/p' | head -n 1)
-[ -n "$kernel" ] || { echo "fetch.sh: apt knows no linux-image-amd64; apt-get update?" >&2; exit 1; }
+newest_kernel() {
+    apt-cache depends linux-image-amd64 2>/dev/null |
+        sed -n 's/.*Depends: \(linux-image-[0-9][^ ]*-amd64\).*/\1/p' | head -n 1
+}
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+kernel=$(newest_kernel)
+if [ -z "$kernel" ]; then # a fresh machine knows no packages yet
+    as_root apt-get -q update
+    kernel=$(newest_kernel)
+fi
+[ -n "$kernel" ] || { echo "fetch.sh: apt knows no linux-image-amd64" >&2; exit 1; }
 apt-get -q -o APT::Sandbox::User=root download "$kernel" busybox-static can-utils
 
 # Only what is needed: the whole image would be 400 MB.

@@ -1,5 +1,6 @@
 #!/busybox sh
-# First process of the virtual machine: loads CAN, drives, sends the results through the second serial port, powers off.
+# First process of the virtual machine: loads CAN, drives in a network namespace as a host would, sends the results through
+# the second serial port, powers off.
 /busybox mkdir -p /bin /proc /sys /dev /tmp /output
 /busybox --install -s /bin
 export PATH=/bin
@@ -9,7 +10,7 @@ mount -t devtmpfs none /dev
 for module in /modules/*.ko; do
     insmod "$module" || echo "init: cannot load $module"
 done
-sh /drive.sh /roadpose-replay /candump /drive /output
+unshare -n sh /drive.sh /roadpose-replay /candump /drive /output
 stty -F /dev/ttyS1 raw
 tar -c -f - -C /output . >/dev/ttyS1
 sync

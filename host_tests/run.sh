@@ -7,8 +7,11 @@
 set -eu
 
 packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 python3-venv ca-certificates'
-# The same bits from a 32-bit build: only where the machine can run one.
-[ "$(dpkg --print-architecture)" != amd64 ] || packages="$packages gcc-multilib"
+# The same bits from a 32-bit build: only where the machine can run one. Not gcc-multilib, which excludes gcc-powerpc-linux-gnu.
+[ "$(dpkg --print-architecture)" != amd64 ] || packages="$packages gcc-12-multilib libc6-dev-i386"
+# Firmware: Cortex-M, RISC-V and big-endian PowerPC, all emulated; and the installed package.
+packages="$packages gcc-arm-none-eabi libnewlib-arm-none-eabi gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
+    gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-user-static qemu-system-arm qemu-system-misc pkg-config"
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${ROADPOSE_BUILD_DIR:-$root/build-host-tests}

@@ -15,7 +15,8 @@ import sys
 SANITIZERS = "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer"
 BUILDS = ["-O0", "-O2", "-O3", "-Os", SANITIZERS]
 # What processors of ECUs do otherwise than this one: plain char without sign, short enums, 32-bit pointers and long.
-GCC_BUILDS = ["-O2 -funsigned-char -fshort-enums", "-O2 -m32"]
+# Debian's gcc-12-multilib alone leaves the kernel's headers where only the 64-bit compiler looks.
+GCC_BUILDS = ["-O2 -funsigned-char -fshort-enums", "-O2 -m32 -idirafter /usr/include/x86_64-linux-gnu"]
 SETTINGS = ["", "--method 1", "--method 1 --no-refine", "--no-refine", "--corridor 0", "--points 10 --seed 7 --no-refine"]
 
 

@@ -6,7 +6,7 @@
 # Environment: ROADPOSE_BUILD_DIR (default build-host-tests), ROADPOSE_RECORDINGS, ROADPOSE_TEST_SEED.
 set -eu
 
-packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 python3-venv ca-certificates'
+packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libopencv-dev binutils bash python3 python3-venv qemu-system-x86 cpio ca-certificates'
 # The same bits from a 32-bit build: only where the machine can run one. Not gcc-multilib, which excludes gcc-powerpc-linux-gnu.
 [ "$(dpkg --print-architecture)" != amd64 ] || packages="$packages gcc-12-multilib libc6-dev-i386"
 # Firmware: Cortex-M, RISC-V and big-endian PowerPC, all emulated; and the installed package.

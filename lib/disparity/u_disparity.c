@@ -49,22 +49,27 @@ static bool is_obstacle(const roadpose_count_t *count, int32_t level, const road
     return pair > rule->road_count + rule->obstacle_um * level / rule->per_count_um;
 }
 
-/* Lateral position of the column at this level: (u - cu) * B / d. The level's far side counts as inside. */
-static bool is_in_corridor(int32_t level, int64_t lateral_um_px, const roadpose_free_rule_t *rule) {
-    return level >= rule->level_min &&
-           (rule->half_width_um == 0 || lateral_um_px <= rule->half_width_um * (level + 1));
+/* First level of the column that lies in the corridor: |u - cu| B <= half width * d, where the far side of a level,
+ * d = level + 1, counts. lateral <= 2^11 px * 2^21 um. */
+static int32_t first_free_level(const roadpose_free_rule_t *rule, const roadpose_grid_t *grid, int16_t column) {
+    const int32_t offset_px = (column - grid->column_0) * ROADPOSE_COLUMN_STEP;
+    const int64_t lateral_um_px = roadpose_abs((int64_t)offset_px * grid->baseline_um);
+    if (rule->half_width_um == 0 || lateral_um_px <= rule->half_width_um) {
+        return rule->level_min;
+    }
+    const int64_t first = (lateral_um_px - 1) / rule->half_width_um;
+    return (first > rule->level_min) ? (int32_t)roadpose_clamp(first, 0, ROADPOSE_MAX_DISPARITY) : rule->level_min;
 }
 
 uint32_t roadpose_free_map_column(roadpose_free_map_t *free_map, const roadpose_u_disparity_t *histogram,
                                   const roadpose_free_rule_t *rule, const roadpose_grid_t *grid, int16_t column) {
     const roadpose_count_t *count = histogram->count[column];
-    const int32_t offset_px = (column - grid->column_0) * ROADPOSE_COLUMN_STEP;
-    const int64_t lateral_um_px = roadpose_abs((int64_t)offset_px * grid->baseline_um); /* <= 2^11 * 2^21 */
+    uint32_t *bits = free_map->bits[column];
     uint32_t samples = 0;
-    memset(free_map->bits[column], 0, sizeof free_map->bits[column]);
-    for (int32_t level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
-        if (count[level] != 0u && is_in_corridor(level, lateral_um_px, rule) && !is_obstacle(count, level, rule)) {
-            free_map->bits[column][level >> 5] |= UINT32_C(1) << ((unsigned)level & 31u);
+    memset(bits, 0, sizeof free_map->bits[column]);
+    for (int32_t level = first_free_level(rule, grid, column); level < ROADPOSE_MAX_DISPARITY; level++) {
+        if (count[level] != 0u && !is_obstacle(count, level, rule)) {
+            bits[level >> 5] |= UINT32_C(1) << ((unsigned)level & 31u);
             samples += count[level];
         }
     }

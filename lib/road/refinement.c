@@ -25,7 +25,7 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 #define LAST_SPARSE_ROUND 4u
 
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
-#define LIMIT_Q24 ((int64_t)ROADPOSE_MAX_DISPARITY << 24)
+#define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
 
 /* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
 #define BAND_LIMIT_Q8 1023
@@ -119,10 +119,11 @@ static int32_t corridor_weight(const roadpose_road_rule_t *rule, int64_t lateral
 }
 
 /* Sums over one row in which y is constant. At most 1024 points a row, weight <= 2, |x| <= 1024, |r| < 1024:
- * x sums < 2^21, xx < 2^31 (unsigned), xr < 2^31 + ... : 1024 * 2 * 1024 * 1023 = 2^31 - 2^21, rr likewise. */
+ * n < 2^12, x < 2^21, r < 2^21, xr <= 2^31 - 2^21, and xx, rr <= 2^31 unsigned. */
 typedef struct {
     int32_t n, x, r, xr;
     uint32_t xx, rr;
+    uint32_t on_road;
 } row_sums_t;
 
 static void row_sums_flush(roadpose_moments_t *moments, const row_sums_t *sums, int32_t y) {
@@ -133,18 +134,22 @@ static void row_sums_flush(roadpose_moments_t *moments, const row_sums_t *sums, 
     moments->xr += sums->xr;
     moments->rr += sums->rr;
     moments->y += (int64_t)sums->n * y;
-    moments->yy += (int64_t)sums->n * y * y;
+    moments->yy += (int64_t)sums->n * (y * y); /* |y| <= 2^10 */
     moments->xy += (int64_t)sums->x * y;
     moments->yr += (int64_t)sums->r * y;
+    moments->on_road += sums->on_road;
 }
 
-static void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
+static inline void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
+    const int32_t wx = weight * x;
+    const int32_t wr = weight * r;
     sums->n += weight;
-    sums->x += weight * x;
-    sums->xx += (uint32_t)(weight * x * x);
-    sums->r += weight * r;
-    sums->xr += weight * x * r;
-    sums->rr += (uint32_t)(weight * r * r);
+    sums->x += wx;
+    sums->r += wr;
+    sums->xr += wx * r;
+    sums->xx += (uint32_t)(wx * x);
+    sums->rr += (uint32_t)(wr * r);
+    sums->on_road++;
 }
 
 /* Weighs the points of a row by the corridor. Points where the plane is too far, above its horizon, or nearer than can
@@ -181,7 +186,6 @@ static inline bool sort_point(roadpose_moments_t *moments, const roadpose_road_r
         }
         /* p < 2^16 and unevenness < 2^16: the product fits 32 bits */
         if (distance <= rule->noise_q8 + (int32_t)((p * rule->unevenness_q16) >> 16)) {
-            moments->on_road++;
             return true;
         }
     }
@@ -198,19 +202,22 @@ void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *po
     const int32_t y = row - grid->row_0;
     /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 rounds the disparities below */
     const int64_t base_q24 = (int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15);
-    const int64_t a_q24 = plane->a_q24;
-    row_sums_t sums = {0, 0, 0, 0, 0, 0};
+    const int32_t a_q24 = plane->a_q24;
+    const int32_t column_0 = grid->column_0;
+    row_sums_t sums = {0, 0, 0, 0, 0, 0, 0};
     if (rule->mark_corridor) {
         mark_row(points, plane, rule, grid, base_q24, row);
     }
-    for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
-        const int32_t weight = roadpose_point_weight(points->column[i]);
-        const int32_t x = roadpose_point_column(points->column[i]) - grid->column_0;
-        const int64_t p_q24 = base_q24 + a_q24 * x;
-        if (weight == 0 || p_q24 < 0 || p_q24 >= LIMIT_Q24) {
-            continue; /* the plane may have moved since the mark: the limits guard the levels */
+    const uint16_t end = points->row_start[row + 1];
+    for (uint16_t i = points->row_start[row]; i < end; i++) {
+        const uint16_t entry = points->column[i];
+        const int32_t weight = roadpose_point_weight(entry);
+        const int32_t x = roadpose_point_column(entry) - column_0;
+        const uint64_t p_q24 = (uint64_t)(base_q24 + (int64_t)a_q24 * x); /* negative: beyond the limit */
+        if (weight == 0 || p_q24 >= LIMIT_Q24) {
+            continue; /* the plane may have moved since the mark: the limit guards the levels */
         }
-        const uint32_t p = (uint32_t)((uint64_t)p_q24 >> 16);
+        const uint32_t p = (uint32_t)(p_q24 >> 16);
         const int32_t r = (int32_t)points->disparity_q8[i] - (int32_t)p;
         if (sort_point(moments, rule, r, p)) {
             add_point(&sums, weight, x, r);

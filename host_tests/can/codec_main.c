@@ -1,9 +1,8 @@
-/* roadpose-can-codec: the C code of port/can, line by line, for the tests that compare it with cantools and autosar-e2e.
- * One command a line on standard input, one answer a line on standard output:
- *   pose VALID PITCH_URAD ROLL_URAD HEIGHT_UM                                    -> 16 hexadecimal digits
- *   quality VALID YAW_URAD SUPPORT_PERMILLE RESIDUAL_MILLIPX NEAR_MM FAR_MM      -> 16 hexadecimal digits
- *   status VALID POSE_STATUS YAW_STATUS FRAMES REFUSED OVERWRITTEN DROPPED       -> 16 hexadecimal digits
- *   again MESSAGE HEX                                                            -> unpacked and packed again
+/* roadpose-can-codec: the C code of port/can, line by line, for the tests that compare it with cantools and
+ * autosar-e2e. One command a line on standard input, one answer a line on standard output: pose VALID PITCH_URAD
+ * ROLL_URAD HEIGHT_UM                                    -> 16 hexadecimal digits quality VALID YAW_URAD
+ * SUPPORT_PERMILLE RESIDUAL_MILLIPX NEAR_MM FAR_MM      -> 16 hexadecimal digits status VALID POSE_STATUS YAW_STATUS
+ * FRAMES REFUSED OVERWRITTEN DROPPED       -> 16 hexadecimal digits again MESSAGE HEX -> unpacked and packed again
  *   protect PROFILE MESSAGE COUNTER HEX                                          -> the protected frame
  *   check PROFILE MESSAGE HEX                                                    -> word of the E2E status, a receiver
  *                                                                                   each for profile and message
@@ -96,8 +95,7 @@ static bool again(const char *line) {
 }
 
 static bool settings_of(unsigned profile, unsigned message, roadpose_can_settings_t *settings) {
-    return message < ROADPOSE_CAN_MESSAGES &&
-           roadpose_can_settings_default(settings, (roadpose_e2e_profile_t)profile);
+    return message < ROADPOSE_CAN_MESSAGES && roadpose_can_settings_default(settings, (roadpose_e2e_profile_t)profile);
 }
 
 static bool protect(const char *line) {

@@ -16,8 +16,8 @@ typedef struct {
 struct roadpose_can_context {
     fake_frame_t frame[FAKE_BUS_FRAMES];
     unsigned frames;
-    unsigned sends;    /* calls of can_send */
-    unsigned recovers; /* calls of can_recover */
+    unsigned sends;     /* calls of can_send */
+    unsigned recovers;  /* calls of can_recover */
     unsigned fail_from; /* these calls of can_send answer fail_with; counted from 1, 0: none */
     unsigned fail_to;
     roadpose_can_send_t fail_with;

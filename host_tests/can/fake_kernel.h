@@ -1,5 +1,6 @@
-/* A kernel with one CAN interface, in place of the system calls of port/socketcan (the linker's --wrap). It can be taken
- * down and up, vanish and come back, fill up, go bus-off and restart; and any call can be made to fail at call N. */
+/* A kernel with one CAN interface, in place of the system calls of port/socketcan (the linker's --wrap). It can be
+ * taken down and up, vanish and come back, fill up, go bus-off and restart; and any call can be made to fail at call N.
+ */
 #ifndef FAKE_KERNEL_H
 #define FAKE_KERNEL_H
 
@@ -9,8 +10,8 @@
 #define KERNEL_FRAMES 1024
 
 typedef struct {
-    bool has_can;      /* AF_CAN */
-    bool has_vcan;     /* the interface "vcan0" exists */
+    bool has_can;  /* AF_CAN */
+    bool has_vcan; /* the interface "vcan0" exists */
     bool is_up;
     bool is_full;
     int pending_error; /* reported once by the next send or recv */

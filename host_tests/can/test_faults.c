@@ -1,6 +1,6 @@
-/* The bus fails in every way at every call. A run of cycles is repeated: sending fails at call N, for N = 1, 2, ... until
- * a run completes without meeting the fault. After every run the bus must show: frames of a cycle in order, counters
- * that go on where the bus was only full, and in every cycle the newest estimate or nothing. */
+/* The bus fails in every way at every call. A run of cycles is repeated: sending fails at call N, for N = 1, 2, ...
+ * until a run completes without meeting the fault. After every run the bus must show: frames of a cycle in order,
+ * counters that go on where the bus was only full, and in every cycle the newest estimate or nothing. */
 #include <stdio.h>
 #include <string.h>
 

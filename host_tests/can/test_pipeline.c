@@ -19,11 +19,11 @@
 typedef enum { NOTHING, GOOD, DOUBLED, TORN, OTHER_SIZE } event_t;
 
 /* What the camera does at each tick: on time every fourth, then late, early, and all the rest. */
-static const event_t script[] = {GOOD,    NOTHING, NOTHING, NOTHING, GOOD,       NOTHING, NOTHING, NOTHING, NOTHING, NOTHING,
-                                 GOOD,    GOOD,    GOOD,    NOTHING, NOTHING,    DOUBLED, NOTHING, NOTHING, NOTHING, TORN,
-                                 NOTHING, NOTHING, NOTHING, NOTHING, OTHER_SIZE, NOTHING, NOTHING, NOTHING, GOOD,    NOTHING,
-                                 NOTHING, NOTHING, NOTHING, NOTHING, NOTHING,    NOTHING, NOTHING, NOTHING, GOOD,    NOTHING,
-                                 NOTHING, NOTHING, NOTHING, NOTHING, NOTHING,    NOTHING};
+static const event_t script[] = {
+    GOOD,       NOTHING, NOTHING, NOTHING, GOOD,    NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, GOOD,    GOOD,
+    GOOD,       NOTHING, NOTHING, DOUBLED, NOTHING, NOTHING, NOTHING, TORN,    NOTHING, NOTHING, NOTHING, NOTHING,
+    OTHER_SIZE, NOTHING, NOTHING, NOTHING, GOOD,    NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING,
+    NOTHING,    NOTHING, GOOD,    NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING, NOTHING};
 #define TICKS (sizeof script / sizeof script[0])
 
 struct roadpose_camera_context {
@@ -194,8 +194,8 @@ static uint32_t number_of_torn_frame(void) {
 }
 
 static void a_drive_without_bus_faults(void) {
-    const unsigned expected = 1u << ROADPOSE_STATUS_OK | 1u << ROADPOSE_CAN_STATUS_BAD_FRAME |
-                              1u << ROADPOSE_CAN_STATUS_NO_FRAME;
+    const unsigned expected =
+        1u << ROADPOSE_STATUS_OK | 1u << ROADPOSE_CAN_STATUS_BAD_FRAME | 1u << ROADPOSE_CAN_STATUS_NO_FRAME;
     const uint32_t torn_frame = number_of_torn_frame();
     drive(ROADPOSE_CAN_FULL, 100000, 1);
     expect_buffers_back();

@@ -146,8 +146,7 @@ static void frames_of_others_and_of_wrong_length_are_refused(void) {
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_NONE, roadpose_can_receive_frame(&receive, 0x1ABCDEF0u, data, 8));
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_NONE, roadpose_can_receive_frame(&receive, 0x3D0, NULL, 8));
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_NONE, roadpose_can_receive_frame(NULL, 0x3D0, data, 8));
-    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_POSE,
-                          roadpose_can_receive_frame(&receive, 0x3D0, bus.frame[0].data, 7));
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_POSE, roadpose_can_receive_frame(&receive, 0x3D0, bus.frame[0].data, 7));
     TEST_ASSERT_EQUAL_UINT8(ROADPOSE_E2E_CRC_ERROR, receive.view.e2e[0]);
     TEST_ASSERT_EQUAL_HEX8(0, receive.view.pose.valid);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_MESSAGE_QUALITY, hear(1)); /* the 29-bit one */

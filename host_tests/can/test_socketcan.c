@@ -35,8 +35,7 @@ static void open_vcan(void) {
 static void frames_reach_the_interface(void) {
     open_vcan();
     expect_send(ROADPOSE_CAN_SENT);
-    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_SENT,
-                          roadpose_socketcan_send(&can, ROADPOSE_CAN_EXTENDED | 0x12345u, data));
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_SENT, roadpose_socketcan_send(&can, ROADPOSE_CAN_EXTENDED | 0x12345u, data));
     TEST_ASSERT_EQUAL_INT(2, kernel.frames);
     TEST_ASSERT_EQUAL_HEX32(0x3D0, kernel.frame[0].id);
     TEST_ASSERT_EQUAL_HEX32(CAN_EFF_FLAG | 0x12345u, kernel.frame[1].id);

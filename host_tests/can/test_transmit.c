@@ -111,6 +111,22 @@ static void a_full_queue_is_tried_again_until_the_cycle_ends(void) {
     TEST_ASSERT_EQUAL_UINT32(4, roadpose_can_transmit_counts(&transmit)->full);
 }
 
+static void a_full_queue_after_an_outage_is_a_bus_again(void) {
+    bus.fail_from = 1;
+    bus.fail_to = 1;
+    bus.fail_with = ROADPOSE_CAN_DOWN;
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_NO_BUS, cycle());
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_NO_BUS, roadpose_can_transmit_poll(&transmit, now_us + CYCLE_US));
+    bus.fail_from = bus.fail_to = 2;
+    bus.fail_with = ROADPOSE_CAN_FULL;
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_WAITING, cycle());
+    TEST_ASSERT_EQUAL_UINT(1, bus.recovers);
+    TEST_ASSERT_EQUAL_UINT32(1, roadpose_can_transmit_counts(&transmit)->recovered);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
+    TEST_ASSERT_EQUAL_UINT(1, bus.recovers);
+    TEST_ASSERT_EQUAL_UINT8(1, fake_frame_counter(&bus.frame[0])); /* one cycle was lost, one only waited */
+}
+
 static void after_the_deadline_nothing_old_is_sent(void) {
     bus.fail_from = 1;
     bus.fail_to = 1;
@@ -196,6 +212,7 @@ int main(void) {
     RUN_TEST(an_estimate_dated_after_its_cycle_is_not_old);
     RUN_TEST(counters_start_at_the_constant_and_run_over);
     RUN_TEST(a_full_queue_is_tried_again_until_the_cycle_ends);
+    RUN_TEST(a_full_queue_after_an_outage_is_a_bus_again);
     RUN_TEST(after_the_deadline_nothing_old_is_sent);
     RUN_TEST(settings_and_pointers_are_checked);
     RUN_TEST(every_setting_has_its_range);

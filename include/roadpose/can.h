@@ -23,8 +23,8 @@
  * | status  | overwritten count     | 48|8  | 0        | 1        | 254        | overwritten_count, modulo 255    |
  * | status  | dropped count         | 56|8  | 0        | 1        | 254        | dropped_count, modulo 255        |
  *
- * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time. No heap, no floating
- * point, no clock. Numbers are rounded to the nearest code.
+ * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time. No heap, no
+ * floating point, no clock. Numbers are rounded to the nearest code.
  */
 #ifndef ROADPOSE_CAN_H
 #define ROADPOSE_CAN_H
@@ -119,11 +119,11 @@ const char *roadpose_can_status_word(uint8_t pose_status);
 
 /* Settings of sender and receiver: equal on both sides. */
 typedef struct {
-    uint32_t id[ROADPOSE_CAN_MESSAGES]; /* CAN identifiers, see can_port.h; all different. Default 0x3D0, 0x3D1, 0x3D2 */
+    uint32_t id[ROADPOSE_CAN_MESSAGES]; /* CAN identifiers (can_port.h), all different. Default 0x3D0, 0x3D1, 0x3D2 */
     roadpose_e2e_config_t e2e[ROADPOSE_CAN_MESSAGES]; /* default: profile 1, data_id 0x5250, 0x5251, 0x5252,
                                                          max_delta 3, lists as in docs/can.md */
-    uint32_t cycle_us;      /* from one cycle to the next, 1000...10 000 000. Default 100 000 */
-    uint32_t max_age_us;    /* sender: an estimate older than this is no longer sent, 0...600 000 000. Default 250 000 */
+    uint32_t cycle_us;   /* from one cycle to the next, 1000...10 000 000. Default 100 000 */
+    uint32_t max_age_us; /* sender: an estimate older than this is no longer sent, 0...600 000 000. Default 250 000 */
     uint8_t timeout_cycles; /* receiver: cycles without a usable frame until its signals are invalid, 1...255.
                                Default 3 */
 } roadpose_can_settings_t;
@@ -160,12 +160,12 @@ typedef struct {
     uint32_t refused;     /* of those, without a pose */
     uint32_t overwritten; /* as the caller reports it */
     uint32_t cycles;
-    uint32_t sent;        /* CAN frames that the port took */
-    uint32_t full;        /* times that the port answered FULL */
-    uint32_t dropped;     /* CAN frames given up: never taken, and replaced by the next cycle's */
-    uint32_t down;        /* times that the bus went down, bus-off included */
-    uint32_t bus_off;     /* of those, times bus-off */
-    uint32_t recovered;   /* times that a frame was taken again after the bus had been down */
+    uint32_t sent;      /* CAN frames that the port took */
+    uint32_t full;      /* times that the port answered FULL */
+    uint32_t dropped;   /* CAN frames given up: never taken, and replaced by the next cycle's */
+    uint32_t down;      /* times that the bus went down, bus-off included */
+    uint32_t bus_off;   /* of those, times bus-off */
+    uint32_t recovered; /* times that a frame was taken again after the bus had been down */
 } roadpose_can_counts_t;
 
 /* One frame that waits for the port. Private members. */
@@ -191,10 +191,10 @@ typedef struct {
 
 /* Where the sender stands after a call. */
 typedef enum {
-    ROADPOSE_CAN_DONE = 0,          /* all frames of this cycle were taken, or are past their deadline */
-    ROADPOSE_CAN_WAITING = 1,       /* the port was full: poll again before the cycle ends */
-    ROADPOSE_CAN_NO_BUS = 2,        /* interface down or bus-off: recovery is asked for at the next cycle */
-    ROADPOSE_CAN_ERROR_NULL = -1,   /* a pointer that must be given is NULL */
+    ROADPOSE_CAN_DONE = 0,           /* all frames of this cycle were taken, or are past their deadline */
+    ROADPOSE_CAN_WAITING = 1,        /* the port was full: poll again before the cycle ends */
+    ROADPOSE_CAN_NO_BUS = 2,         /* interface down or bus-off: recovery is asked for at the next cycle */
+    ROADPOSE_CAN_ERROR_NULL = -1,    /* a pointer that must be given is NULL */
     ROADPOSE_CAN_ERROR_SETTINGS = -2 /* a setting is out of range */
 } roadpose_can_result_t;
 
@@ -236,7 +236,7 @@ typedef struct {
     roadpose_can_pose_t pose;
     roadpose_can_quality_t quality;
     roadpose_can_status_t status;
-    uint8_t e2e[ROADPOSE_CAN_MESSAGES];       /* roadpose_e2e_status_t of the last frame, or of the last cycle */
+    uint8_t e2e[ROADPOSE_CAN_MESSAGES];         /* roadpose_e2e_status_t of the last frame, or of the last cycle */
     uint32_t not_usable[ROADPOSE_CAN_MESSAGES]; /* frames that came and were refused: CRC, sequence, repetition */
 } roadpose_can_view_t;
 
@@ -244,7 +244,7 @@ typedef struct {
 typedef struct {
     roadpose_can_settings_t settings;
     roadpose_e2e_receiver_t receiver[ROADPOSE_CAN_MESSAGES];
-    bool arrived[ROADPOSE_CAN_MESSAGES]; /* a frame in this cycle */
+    bool arrived[ROADPOSE_CAN_MESSAGES];   /* a frame in this cycle */
     uint8_t missed[ROADPOSE_CAN_MESSAGES]; /* cycles since the last usable frame */
     roadpose_can_view_t view;
 } roadpose_can_receive_t;

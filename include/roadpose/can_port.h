@@ -31,7 +31,7 @@ typedef enum {
     ROADPOSE_CAN_BUS_OFF = -2 /* the controller has left the bus. Not taken */
 } roadpose_can_send_t;
 
-/* Whatever the platform's functions need. The platform defines the struct; the transmitter only passes the pointer on. */
+/* Whatever the platform's functions need. The platform defines the struct; the transmitter only passes it on. */
 typedef struct roadpose_can_context roadpose_can_context_t;
 
 typedef struct {

@@ -24,7 +24,7 @@ extern "C" {
 #endif
 
 #define ROADPOSE_E2E_BYTES 8u         /* protected frames have this length, always */
-#define ROADPOSE_E2E_HEADER_BYTES 3u  /* what the largest header (profile 5) takes: payload starts here in all profiles */
+#define ROADPOSE_E2E_HEADER_BYTES 3u  /* of the largest header, profile 5: the payload begins here in all profiles */
 #define ROADPOSE_E2E_LIST_ENTRIES 16u /* data identifiers of a profile 2 list */
 
 /* Counter of the very first frame after start. Stacks differ: some send 0 first, others count up before the first
@@ -63,20 +63,21 @@ bool roadpose_e2e_protect(const roadpose_e2e_config_t *config, uint8_t counter, 
 
 /* What a receiver learns about one cycle of one message. */
 typedef enum {
-    ROADPOSE_E2E_OK = 0,             /* the counter is the next one: use the data */
-    ROADPOSE_E2E_SOME_LOST = 1,      /* CRC right, frames before it are missing, within the allowance: use the data */
-    ROADPOSE_E2E_INITIAL = 2,        /* CRC right, first frame since start: nothing to compare its counter with */
-    ROADPOSE_E2E_REPEATED = 3,       /* CRC right, the counter did not move: sender stuck or frame doubled; do not use */
-    ROADPOSE_E2E_WRONG_SEQUENCE = 4, /* CRC right, the counter jumped too far; do not use. The next is compared with it */
-    ROADPOSE_E2E_CRC_ERROR = 5,      /* CRC, counter range or length wrong: not this message, or damaged; do not use */
-    ROADPOSE_E2E_NO_NEW_DATA = 6     /* nothing arrived in this cycle */
+    ROADPOSE_E2E_OK = 0,        /* the counter is the next one: use the data */
+    ROADPOSE_E2E_SOME_LOST = 1, /* CRC right, frames before it are missing, within the allowance: use the data */
+    ROADPOSE_E2E_INITIAL = 2,   /* CRC right, first frame since start: nothing to compare its counter with */
+    ROADPOSE_E2E_REPEATED = 3,  /* CRC right, the counter did not move: sender stuck or frame doubled; do not use */
+    ROADPOSE_E2E_WRONG_SEQUENCE =
+        4,                       /* CRC right, the counter jumped too far; do not use. The next is compared with it */
+    ROADPOSE_E2E_CRC_ERROR = 5,  /* CRC, counter range or length wrong: not this message, or damaged; do not use */
+    ROADPOSE_E2E_NO_NEW_DATA = 6 /* nothing arrived in this cycle */
 } roadpose_e2e_status_t;
 
 /* Receiver's memory of one message; the caller's, private members. Zeroed is the start state. */
 typedef struct {
-    bool seen;        /* a frame with a right CRC has arrived */
-    uint8_t counter;  /* of that frame */
-    uint8_t missed;   /* cycles without a usable frame since then, saturating at 255: widens the allowance */
+    bool seen;       /* a frame with a right CRC has arrived */
+    uint8_t counter; /* of that frame */
+    uint8_t missed;  /* cycles without a usable frame since then, saturating at 255: widens the allowance */
 } roadpose_e2e_receiver_t;
 
 /* Judges what arrived in this cycle. data: the 8 bytes, or NULL when nothing arrived. Call it once for each frame that

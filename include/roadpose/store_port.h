@@ -1,5 +1,5 @@
-/* roadpose: keeping a few bytes over power-off. Optional: the estimator of live poses needs none of it; it is for what is
- * learnt over a drive. Fill it in when the platform has memory for it, leave it out otherwise.
+/* roadpose: keeping a few bytes over power-off. Optional: the estimator of live poses needs none of it; it is for what
+ * is learnt over a drive. Fill it in when the platform has memory for it, leave it out otherwise.
  */
 #ifndef ROADPOSE_STORE_PORT_H
 #define ROADPOSE_STORE_PORT_H

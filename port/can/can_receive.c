@@ -58,8 +58,8 @@ static unsigned find_message(const roadpose_can_receive_t *receive, uint32_t id)
 static roadpose_e2e_status_t check(roadpose_can_receive_t *receive, unsigned message, const uint8_t *data,
                                    uint8_t length) {
     bool whole = length == ROADPOSE_CAN_BYTES;
-    roadpose_e2e_status_t status = roadpose_e2e_check(&receive->settings.e2e[message], &receive->receiver[message],
-                                                      whole ? data : NULL);
+    roadpose_e2e_status_t status =
+        roadpose_e2e_check(&receive->settings.e2e[message], &receive->receiver[message], whole ? data : NULL);
     return whole ? status : ROADPOSE_E2E_CRC_ERROR;
 }
 

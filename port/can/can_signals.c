@@ -6,10 +6,10 @@ uint32_t roadpose_can_invalid(const roadpose_can_place_t *place) {
     return (UINT32_C(1) << place->bits) - 1u;
 }
 
-/* Range: |urad| is clamped to 2^20 (60 deg, beyond every code), codes_per_urad_q46 < 2^40, so the product is below 2^60;
- * zero * 2^46 < 2^59: the sum is below 2^61, and it is shifted only when it is not negative. An angle never lies exactly
- * between two codes, because a step in micro-radians is irrational. It may come as near as 1e-7 of a code: the rounding
- * of the constant makes less than 2^-27, and the host test finds the nearest code for every micro-radian. */
+/* Range: |urad| is clamped to 2^20 (60 deg, beyond every code), codes_per_urad_q46 < 2^40, so the product is below
+ * 2^60; zero * 2^46 < 2^59: the sum is below 2^61, and it is shifted only when it is not negative. An angle never lies
+ * exactly between two codes, because a step in micro-radians is irrational. It may come as near as 1e-7 of a code: the
+ * rounding of the constant makes less than 2^-27, and the host test finds the nearest code for every micro-radian. */
 uint32_t roadpose_can_angle_code(const roadpose_can_angle_t *signal, bool valid, int32_t urad) {
     int64_t angle = (urad > INT32_C(0x100000)) ? INT32_C(0x100000) : urad;
     angle = (angle < -INT32_C(0x100000)) ? -INT32_C(0x100000) : angle;

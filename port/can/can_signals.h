@@ -8,9 +8,9 @@
 
 /* A place in the frame, and the codes it takes. bits <= 14. All ones is the invalid code. */
 typedef struct {
-    uint8_t start;  /* bit in the frame as the DBC counts it, 24...63 */
-    uint8_t bits;   /* 4...14 */
-    uint16_t last;  /* largest valid code, below all ones */
+    uint8_t start; /* bit in the frame as the DBC counts it, 24...63 */
+    uint8_t bits;  /* 4...14 */
+    uint16_t last; /* largest valid code, below all ones */
 } roadpose_can_place_t;
 
 /* physical = (code - zero) * step, step in micro-radians, given twice so that neither direction divides. */

@@ -67,7 +67,7 @@ static void give_up_waiting(roadpose_can_transmit_t *transmit) {
     }
 }
 
-/* An estimate may be dated a little after the cycle that sends it, where the caller takes the time once for each task. */
+/* An estimate may be dated a little after the cycle that sends it, where the caller takes the time once a task. */
 static void forget_stale(roadpose_can_transmit_t *transmit, uint64_t now_us) {
     uint64_t age_us = (now_us > transmit->newest_us) ? (now_us - transmit->newest_us) : 0u;
     if (age_us > transmit->settings.max_age_us) {

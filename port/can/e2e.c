@@ -98,8 +98,7 @@ bool roadpose_e2e_config_valid(const roadpose_e2e_config_t *config) {
 }
 
 bool roadpose_e2e_protect(const roadpose_e2e_config_t *config, uint8_t counter, uint8_t data[8]) {
-    if ((data == NULL) || !roadpose_e2e_config_valid(config) ||
-        (counter > roadpose_e2e_counter_max(config->profile))) {
+    if ((data == NULL) || !roadpose_e2e_config_valid(config) || (counter > roadpose_e2e_counter_max(config->profile))) {
         return false;
     }
     if (config->profile == ROADPOSE_E2E_PROFILE_5) {

@@ -79,7 +79,7 @@ bool roadpose_e2e_usable(roadpose_e2e_status_t status) {
 
 const char *roadpose_e2e_status_word(roadpose_e2e_status_t status) {
     /* Characters, not pointers: a table of pointers would be relocated, so writable, in position-independent code. */
-    static const char words[][16] = {"ok",        "some_lost",   "initial", "repeated", "wrong_sequence",
+    static const char words[][16] = {"ok",        "some_lost",  "initial", "repeated", "wrong_sequence",
                                      "crc_error", "no_new_data"};
     unsigned index = (unsigned)status;
     return (index < (sizeof words / sizeof words[0])) ? words[index] : "unknown";

@@ -20,15 +20,16 @@ typedef struct {
     roadpose_can_counts_t reported; /* what the user has been told of */
 } can_bus_t;
 
-/* Opens what the options ask for; a CAN cycle is one frame of the recording. An interface that is missing is reported and
- * waited for while playing; what can never work is reported as a fault, and false is returned. */
+/* Opens what the options ask for; a CAN cycle is one frame of the recording. An interface that is missing is reported
+ * and waited for while playing; what can never work is reported as a fault, and false is returned. */
 bool can_bus_open(can_bus_t *bus, const options_t *options, uint64_t cycle_us);
 
-/* What the frame came to, for the next cycle; the yaw, where there is one, after the pose. yaw_status 0: yaw_urad holds. */
+/* What the frame came to, for the next cycle; the yaw, where there is one, after the pose. yaw_status 0: yaw_urad
+ * holds. */
 void can_bus_pose(can_bus_t *bus, const roadpose_pose_t *pose);
 void can_bus_yaw(can_bus_t *bus, int32_t yaw_urad, uint8_t yaw_status);
 
-/* Begins a cycle, offers again what waits. Both return whether frames wait for room. Times are those of the recording. */
+/* Begins a cycle, offers again what waits. Both return whether frames wait for room. Times: of the recording. */
 bool can_bus_cycle(can_bus_t *bus, uint64_t time_us);
 bool can_bus_poll(can_bus_t *bus, uint64_t time_us);
 

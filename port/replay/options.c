@@ -20,10 +20,12 @@ static const char help_text[] =
     "  --points PERCENT   share of the points that method 2 pairs: 1...100 (default 100)\n"
     "  --seed N           of the random numbers: 0...4294967295 (default 1)\n"
     "  --can IFACE        send the poses on this CAN interface too, at the pace of the recording\n"
-    "  --candump FILE     write the CAN frames as a log of can-utils, with the recording's times; - is standard output,\n"
+    "  --candump FILE     write the CAN frames as a log of can-utils, with the recording's times; - is standard "
+    "output,\n"
     "                     then without the CSV\n"
     "  --e2e PROFILE      AUTOSAR E2E profile of the CAN frames: 1, 2 or 5 (default 1)\n"
-    "  --speed FACTOR     1 is the pace of the recording, 2 twice as fast: up to 1000; 0 as fast as possible (default,\n"
+    "  --speed FACTOR     1 is the pace of the recording, 2 twice as fast: up to 1000; 0 as fast as possible "
+    "(default,\n"
     "                     but 1 with --can)\n"
     "  --help             this text\n"
     "\n"
@@ -31,8 +33,16 @@ static const char help_text[] =
     "height of the left camera in metres; status ok, or why there is no pose. An empty field was not observed.\n"
     "Exit status: 0 played to the end, 1 output cannot be written, 2 bad arguments, 3 bad recording.\n";
 
-typedef enum { NUMBER_METHOD, NUMBER_CORRIDOR, NUMBER_RANGE, NUMBER_POINTS, NUMBER_SEED, NUMBER_E2E, NUMBER_SPEED,
-               NUMBER_COUNT } number_t;
+typedef enum {
+    NUMBER_METHOD,
+    NUMBER_CORRIDOR,
+    NUMBER_RANGE,
+    NUMBER_POINTS,
+    NUMBER_SEED,
+    NUMBER_E2E,
+    NUMBER_SPEED,
+    NUMBER_COUNT
+} number_t;
 
 /* Options with a number; the limits are scaled by 10^places. */
 static const struct {
@@ -44,7 +54,7 @@ static const struct {
 } numbers[NUMBER_COUNT] = {
     [NUMBER_METHOD] = {"--method", 0, false, 1, 2},      [NUMBER_CORRIDOR] = {"--corridor", 3, true, 500, 100000},
     [NUMBER_RANGE] = {"--range", 3, true, 5000, 500000}, [NUMBER_POINTS] = {"--points", 0, false, 1, 100},
-    [NUMBER_SEED] = {"--seed", 0, false, 0, UINT32_MAX},   [NUMBER_E2E] = {"--e2e", 0, false, 1, 5},
+    [NUMBER_SEED] = {"--seed", 0, false, 0, UINT32_MAX}, [NUMBER_E2E] = {"--e2e", 0, false, 1, 5},
     [NUMBER_SPEED] = {"--speed", 3, false, 0, 1000000},
 };
 

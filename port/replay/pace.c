@@ -28,7 +28,8 @@ void pace_frame(pace_t *pace) {
     pace->frame_us = clock_us();
 }
 
-bool pace_wait(const pace_t *pace, uint64_t time_us, uint64_t next_us, bool is_last, bool is_pending, uint64_t *now_us) {
+bool pace_wait(const pace_t *pace, uint64_t time_us, uint64_t next_us, bool is_last, bool is_pending,
+               uint64_t *now_us) {
     const bool is_paced = pace->speed_permille > 0 && !is_last;
     const uint64_t scale = pace->speed_permille > 0 ? pace->speed_permille : 1000u;
     const uint64_t elapsed_us = (clock_us() - (is_paced ? pace->start_us : pace->frame_us)) * scale / 1000u;

@@ -17,8 +17,8 @@ struct roadpose_can_context {
 /* Nowhere yet: frames are taken and forgotten. */
 void roadpose_can_output_init(roadpose_can_context_t *output);
 
-/* Adds the interface; see roadpose_socketcan_open(). Anything but NO_SUPPORT and BAD_NAME leaves an output that sends as
- * soon as the interface is there. */
+/* Adds the interface; see roadpose_socketcan_open(). Anything but NO_SUPPORT and BAD_NAME leaves an output that sends
+ * as soon as the interface is there. */
 roadpose_socketcan_result_t roadpose_can_output_add_bus(roadpose_can_context_t *output, const char *interface);
 
 /* Adds the log; see roadpose_candump_open(). */

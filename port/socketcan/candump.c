@@ -48,8 +48,8 @@ static bool parse_data(const char *hex, roadpose_candump_frame_t *frame) {
 static bool parse_id(const char *text, roadpose_candump_frame_t *frame) {
     const size_t digits = strspn(text, "0123456789ABCDEFabcdef");
     const unsigned long id = strtoul(text, NULL, 16);
-    if (text[digits] != '#' || !((digits == 3u && id <= ROADPOSE_CAN_STANDARD_MASK) ||
-                                 (digits == 8u && id <= ROADPOSE_CAN_EXTENDED_MASK)))
+    if (text[digits] != '#' ||
+        !((digits == 3u && id <= ROADPOSE_CAN_STANDARD_MASK) || (digits == 8u && id <= ROADPOSE_CAN_EXTENDED_MASK)))
         return false;
     frame->id = (uint32_t)id | (digits == 8u ? ROADPOSE_CAN_EXTENDED : 0u);
     return parse_data(text + digits + 1u, frame);

@@ -14,7 +14,7 @@
 
 typedef struct {
     uint64_t time_us;
-    uint32_t id; /* with ROADPOSE_CAN_EXTENDED where it has 29 bits */
+    uint32_t id;    /* with ROADPOSE_CAN_EXTENDED where it has 29 bits */
     uint8_t length; /* 0...8 */
     uint8_t data[ROADPOSE_CAN_BYTES];
 } roadpose_candump_frame_t;
@@ -23,12 +23,12 @@ typedef struct {
     FILE *file; /* NULL: closed */
     bool owns_file;
     char name[ROADPOSE_CANDUMP_NAME_BYTES]; /* of the interface, as the log calls it */
-    bool failed; /* a line could not be written */
+    bool failed;                            /* a line could not be written */
 } roadpose_candump_t;
 
 /* Opens a log; path "-" is standard output. interface: its name in the log, at most 15 characters, longer is cut.
- * Returns false when the file cannot be created; errno tells why. Each line is written at once, so that a listener at the
- * end of a pipe sees it. */
+ * Returns false when the file cannot be created; errno tells why. Each line is written at once, so that a listener at
+ * the end of a pipe sees it. */
 bool roadpose_candump_open(roadpose_candump_t *log, const char *path, const char *interface);
 
 /* Writes one line. Does nothing on a closed log. */

@@ -1,6 +1,6 @@
-/* roadpose-listen: what an ECU on the bus sees. Reads a log of can-utils, checks and unpacks our frames with the receiver
- * of port/can, and prints a line for each cycle.
- *     candump -L can0 | roadpose-listen          roadpose-listen drive.log */
+/* roadpose-listen: what an ECU on the bus sees. Reads a log of can-utils, checks and unpacks our frames with the
+ * receiver of port/can, and prints a line for each cycle. candump -L can0 | roadpose-listen          roadpose-listen
+ * drive.log */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,8 +84,7 @@ static void listen_to(FILE *file, roadpose_can_receive_t *receive) {
         if (!roadpose_candump_parse(line, &frame))
             continue;
         pass_silence(receive, last_us, frame.time_us);
-        const roadpose_can_message_t message =
-            roadpose_can_receive_frame(receive, frame.id, frame.data, frame.length);
+        const roadpose_can_message_t message = roadpose_can_receive_frame(receive, frame.id, frame.data, frame.length);
         if (message != ROADPOSE_CAN_MESSAGE_NONE)
             last_us = frame.time_us;
         if (message == ROADPOSE_CAN_MESSAGE_STATUS) {

@@ -34,8 +34,8 @@ static bool find_interface(roadpose_socketcan_t *can, int *index) {
     return found;
 }
 
-/* Error frames only, and the shortest queue that the system allows. None of these is worth failing for: without them the
- * socket still sends. */
+/* Error frames only, and the shortest queue that the system allows. None of these is worth failing for: without them
+ * the socket still sends. */
 static void set_options(const roadpose_socketcan_t *can) {
     const can_err_mask_t errors = CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
     const int shortest = 0;

@@ -1,13 +1,13 @@
 /* roadpose on Linux: a CAN interface by SocketCAN.
  *
- * A raw socket that never blocks and receives nothing but error frames. A full queue (ENOBUFS, EAGAIN), an interface that
- * is down (ENETDOWN) or gone (ENXIO, ENODEV), and a controller that is bus-off are ordinary answers; all are counted, and
- * roadpose_socketcan_recover() opens an interface again that came back or came for the first time. Restarting a
- * controller after bus-off takes the right to configure the network: set `ip link set can0 type can restart-ms 100`, or
- * restart by hand; the port notices it.
+ * A raw socket that never blocks and receives nothing but error frames. A full queue (ENOBUFS, EAGAIN), an interface
+ * that is down (ENETDOWN) or gone (ENXIO, ENODEV), and a controller that is bus-off are ordinary answers; all are
+ * counted, and roadpose_socketcan_recover() opens an interface again that came back or came for the first time.
+ * Restarting a controller after bus-off takes the right to configure the network: set `ip link set can0 type can
+ * restart-ms 100`, or restart by hand; the port notices it.
  *
- * On systems without SocketCAN the functions are there and answer ROADPOSE_SOCKETCAN_NO_SUPPORT. Not for interrupts. One
- * object must not be used by two threads at a time; two objects are independent.
+ * On systems without SocketCAN the functions are there and answer ROADPOSE_SOCKETCAN_NO_SUPPORT. Not for interrupts.
+ * One object must not be used by two threads at a time; two objects are independent.
  */
 #ifndef ROADPOSE_SOCKETCAN_H
 #define ROADPOSE_SOCKETCAN_H
@@ -49,9 +49,9 @@ typedef struct {
  * roadpose_socketcan_recover() tries again. On NO_SUPPORT and BAD_NAME it answers DOWN for ever. Does not wait. */
 roadpose_socketcan_result_t roadpose_socketcan_open(roadpose_socketcan_t *can, const char *name);
 
-/* Offers one frame, as roadpose_can_port_t.can_send wants it. The queue of the socket is kept so short (about two cycles)
- * that a frame which was taken does not go out long after its deadline. At most one frame is written, and 16 error frames
- * are read; three system calls in the ordinary case. */
+/* Offers one frame, as roadpose_can_port_t.can_send wants it. The queue of the socket is kept so short (about two
+ * cycles) that a frame which was taken does not go out long after its deadline. At most one frame is written, and 16
+ * error frames are read; three system calls in the ordinary case. */
 roadpose_can_send_t roadpose_socketcan_send(roadpose_socketcan_t *can, uint32_t id, const uint8_t data[8]);
 
 /* Opens again what is closed. Does nothing to an open interface. */

@@ -80,12 +80,9 @@ static void publish(roadpose_template_t *port, const roadpose_pose_t *pose) {
 
 bool roadpose_template_init(roadpose_template_t *port, const roadpose_rig_t *rig,
                             const roadpose_disparity_format_t *format) {
-    const roadpose_camera_platform_t camera = {&port->camera_context,
-                                               camera_lock,
-                                               camera_unlock,
-                                               camera_frame_release,
-                                               camera_cache_invalidate,
-                                               camera_pose_ready};
+    const roadpose_camera_platform_t camera = {&port->camera_context,   camera_lock,
+                                               camera_unlock,           camera_frame_release,
+                                               camera_cache_invalidate, camera_pose_ready};
     const roadpose_can_port_t can = {&port->can_context, can_send, can_recover};
     port->camera_context.port = port;
     port->can_context.port = port;

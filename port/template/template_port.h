@@ -44,8 +44,8 @@ bool roadpose_template_init(roadpose_template_t *port, const roadpose_rig_t *rig
 void roadpose_template_camera_interrupt(roadpose_template_t *port, const roadpose_frame_t *frame, uint32_t frame_id,
                                         uint64_t time_us);
 
-/* To be called cyclically, at least once in a CAN cycle; more often serves a full CAN queue sooner. now_us: any clock in
- * microseconds that does not run backwards. Cost: 8 slices of a frame, and a CAN cycle or poll. */
+/* To be called cyclically, at least once in a CAN cycle; more often serves a full CAN queue sooner. now_us: any clock
+ * in microseconds that does not run backwards. Cost: 8 slices of a frame, and a CAN cycle or poll. */
 void roadpose_template_task(roadpose_template_t *port, uint64_t now_us);
 
 /* Store and recall; context is NULL. */

@@ -5,8 +5,8 @@
 #define FIRST_IDENTIFIER UINT32_C(0x3D0)
 #define FIRST_DATA_ID 0x5250u /* "RP" */
 
-/* Profile 2 wants a list for each message such that no two messages share an entry at the same counter. 251 is prime
- * and AUTOSAR's largest entry is 250: (counter + 1) * factor modulo 251 differs for different factors, and is never 0. */
+/* Profile 2 wants a list for each message such that no two messages share an entry at the same counter. 251 is prime,
+ * and AUTOSAR's largest entry is 250: (counter + 1) * factor modulo 251 differs for different factors. */
 static void fill_list(uint8_t list[ROADPOSE_E2E_LIST_ENTRIES], unsigned message) {
     static const uint8_t factors[ROADPOSE_CAN_MESSAGES] = {83, 97, 113};
     for (unsigned counter = 0; counter < ROADPOSE_E2E_LIST_ENTRIES; counter++) {

@@ -11,7 +11,8 @@ ARROWS = {
     "disparity": {"fixed_point"},
     "road": {"fixed_point", "disparity"},
     "heading": {"fixed_point"},
-    "": {"fixed_point", "disparity", "road", "heading"},
+    "tracker": {"fixed_point"},
+    "": {"fixed_point", "disparity", "road", "heading", "tracker"},
 }
 
 

@@ -66,7 +66,7 @@ typedef struct {
                                       Default 61 087 (3.5 deg/s) */
     int32_t rate_sigma_max_urad_s; /* where the vehicle gives no yaw rate: how well the tracks must tell it, 1000...
                                       1 000 000. Default 13 090 (0.75 deg/s) */
-    int32_t sigma_max_urad;        /* largest standard deviation of a frame's yaw, 100...100 000. Default 5236 (0.3 deg).
+    int32_t sigma_max_urad;        /* largest standard deviation of a frame's yaw, 100...100 000. Default 4363 (0.25 deg).
                                       Where the vehicle gives no yaw rate, twice as much is allowed to the yaw that the
                                       tracks tell without assuming straight travel */
     int32_t yaw_max_urad;          /* mounting limit to either side, 0...400 000. Default 174 533 (10 deg) */

@@ -24,7 +24,7 @@ void roadpose_heading_settings_default(roadpose_heading_settings_t *settings) {
         .speed_min_mm_s = 3000,
         .yaw_rate_max_urad_s = 61087,
         .rate_sigma_max_urad_s = 13090,
-        .sigma_max_urad = 5236,
+        .sigma_max_urad = 4363,
         .yaw_max_urad = 174533,
     };
 }

@@ -19,9 +19,10 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
  * known than one point. Without it the plane creeps up the foot of a speed bump. */
 #define LEVEL_OFFSET_SHARE 3
 
-/* With at least this many points the first rounds look at every fourth row only. */
+/* With at least this many points the first rounds look at every eighth row only: 512 points find the plane well
+ * enough for the last rounds, which look at all. */
 #define POINTS_PLENTY 4096u
-#define FIRST_ROW_STEP 4u
+#define FIRST_ROW_STEP 8u
 #define LAST_SPARSE_ROUND 4u
 
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
@@ -39,7 +40,7 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 #define SPREAD_SIDEWAYS_MIN_PX 20
 #define SPREAD_DOWN_MIN_PX 10
 
-#define NO_LIMIT_Q12 (INT64_C(1) << 30)
+#define NO_LIMIT_Q12 (INT32_C(1) << 30)
 
 static int32_t noise_band_q8(uint8_t round, const roadpose_settings_t *settings) {
     const int32_t last = settings->noise_millipx * 256 / 1000;
@@ -64,14 +65,15 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     const int64_t k = pixels.length_q24;
     const int64_t n_x_q16 = roadpose_ratio(pixels.a_q24, k, 16); /* |n_x| <= 1 */
     /* Degenerate planes may have a tiny k: the clamps keep every product below 2^62. */
-    rule->centre_q12 = roadpose_clamp(roadpose_ratio(n_x_q16, k, 20), -NO_LIMIT_Q12, NO_LIMIT_Q12);
+    rule->centre_q12 = (int32_t)roadpose_clamp(roadpose_ratio(n_x_q16, k, 20), -NO_LIMIT_Q12, NO_LIMIT_Q12);
     const int64_t cosine_q16 = (int64_t)roadpose_sqrt((uint64_t)((INT64_C(1) << 32) - n_x_q16 * n_x_q16));
     const int64_t width_um = (int64_t)settings->corridor_half_width_mm * 1000;
-    /* width <= 1e8 um, cosine <= 2^16: product < 2^43; / B and from Q16 to Q12 */
+    /* width <= 1e8 um, cosine <= 2^16: product < 2^43; / B >= 20 000 and from Q16 to Q12: < 2^25 */
     const int64_t half_q12 = width_um * cosine_q16 / grid->baseline_um / 16;
-    rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 9 / 8;
-    rule->half_inner_q12 = (width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 7 / 8;
+    rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : (int32_t)(half_q12 * 9 / 8);
+    rule->half_inner_q12 = (width_um == 0) ? NO_LIMIT_Q12 : (int32_t)(half_q12 * 7 / 8);
     rule->range_min_q8 = roadpose_range_min_q8(grid, settings);
+    rule->du_q12 = grid->du_millipx * 4096 / 1000; /* |du| <= 8000 */
     rule->noise_q8 = noise_band_q8(round, settings);
     /* unevenness / height = unevenness * k / B; <= 200 000 um * 2^28 / 20 000: the ratio is clamped to 1 */
     const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
@@ -110,12 +112,12 @@ void roadpose_moments_clear(roadpose_moments_t *moments) {
 
 /* 0 outside the corridor, else the weight. |x| <= 2^10 columns of <= 16 px and |du| <= 8 px in Q12: below 2^27;
  * p < 2^16, centre and halves <= 2^30: products below 2^47. */
-static int32_t corridor_weight(const roadpose_road_rule_t *rule, int64_t lateral_px_q12, int32_t p_q8) {
-    const int64_t off = roadpose_abs(lateral_px_q12 * 256 - rule->centre_q12 * p_q8);
-    if (off <= rule->half_inner_q12 * p_q8) {
+static int32_t corridor_weight(const roadpose_road_rule_t *rule, int32_t lateral_px_q12, int32_t p_q8) {
+    const int64_t off = roadpose_abs((int64_t)lateral_px_q12 * 256 - (int64_t)rule->centre_q12 * p_q8);
+    if (off <= (int64_t)rule->half_inner_q12 * p_q8) {
         return FULL_WEIGHT;
     }
-    return (off <= rule->half_outer_q12 * p_q8) ? HALF_WEIGHT : 0;
+    return (off <= (int64_t)rule->half_outer_q12 * p_q8) ? HALF_WEIGHT : 0;
 }
 
 /* Sums over one row in which y is constant. At most 1024 points a row, weight <= 2, |x| <= 1024, |r| < 1024:
@@ -156,14 +158,13 @@ static inline void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_
  * be measured get none. p: disparity of the plane, Q24; see roadpose_moments_add_row(). */
 static void mark_row(roadpose_points_t *points, const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
                      const roadpose_grid_t *grid, int64_t base_q24, int16_t row) {
-    const int64_t du_q12 = (int64_t)grid->du_millipx * 4096 / 1000;
     for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
         const int32_t column = roadpose_point_column(points->column[i]);
         const int32_t x = column - grid->column_0;
         const int64_t p_q8 = roadpose_floor_shift(base_q24 + (int64_t)plane->a_q24 * x, 16);
         int32_t weight = 0;
         if (p_q8 >= rule->range_min_q8 && p_q8 < LIMIT_Q8) {
-            weight = corridor_weight(rule, (int64_t)x * (ROADPOSE_COLUMN_STEP * 4096) + du_q12, (int32_t)p_q8);
+            weight = corridor_weight(rule, x * (ROADPOSE_COLUMN_STEP * 4096) + rule->du_q12, (int32_t)p_q8);
         }
         points->column[i] = (uint16_t)(column | (weight << ROADPOSE_POINT_WEIGHT_SHIFT));
     }

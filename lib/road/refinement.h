@@ -5,16 +5,17 @@
 #include "roadpose/state.h"
 
 /* Rounds of one refinement; each looks at the points once and moves the plane once. The first rounds take what lies
- * within a shrinking band of noise around the plane, from every fourth row where there are points enough; the last
+ * within a shrinking band of noise around the plane, from every eighth row where there are points enough; the last
  * ones follow the road where it is uneven. */
 #define ROADPOSE_REFINE_ROUNDS 7
 
 /* Which points count around the present plane. */
 typedef struct {
     int32_t range_min_q8;    /* the plane's disparity must be at least this */
-    int64_t centre_q12;      /* corridor: lateral position of its middle, in baselines */
-    int64_t half_outer_q12;  /* half width in baselines where points still count half */
-    int64_t half_inner_q12;  /* and where they count full */
+    int32_t du_q12;          /* pixel column of grid column_0 minus cu */
+    int32_t centre_q12;      /* corridor: lateral position of its middle, in baselines */
+    int32_t half_outer_q12;  /* half width in baselines where points still count half */
+    int32_t half_inner_q12;  /* and where they count full */
     int32_t noise_q8;        /* half width of the band that noise needs, pixels */
     uint32_t unevenness_q16; /* what an uneven road adds to it, as a share of the disparity */
     bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */

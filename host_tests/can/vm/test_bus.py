@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """roadpose-replay on a real SocketCAN: drive.sh plays a drive onto vcan0 and takes the interface away meanwhile; what
 candump heard is compared with the CSV. In a network namespace where this kernel has virtual CAN, else in a virtual
-machine. Environment: ROADPOSE_REPLAY, ROADPOSE_FIXTURES, ROADPOSE_CAN_CODEC, ROADPOSE_VM_PARTS (see fetch.sh);
-ROADPOSE_BUS_IN=vm or here decides otherwise."""
+machine (x86-64 only; exit status 77 elsewhere). Environment: ROADPOSE_REPLAY, ROADPOSE_FIXTURES, ROADPOSE_CAN_CODEC, and
+ROADPOSE_VM_PARTS, the folder for what fetch.sh fetches; ROADPOSE_BUS_IN=vm or here decides otherwise."""
 import os
 import pathlib
+import platform
 import shutil
 import subprocess
 import sys
@@ -35,13 +36,17 @@ def play_here(recording, output):
                    check=True, stdout=subprocess.DEVNULL)
 
 
+WHERE = os.environ.get("ROADPOSE_BUS_IN") or ("here" if kernel_has_can() else "vm")
+
+
 def play(recording, work, output):
-    where = os.environ.get("ROADPOSE_BUS_IN") or ("here" if kernel_has_can() else "vm")
-    print(f"on a bus in {'this kernel' if where == 'here' else 'a virtual machine'}", flush=True)
-    if where == "here":
+    print(f"on a bus in {'this kernel' if WHERE == 'here' else 'a virtual machine'}", flush=True)
+    if WHERE == "here":
         play_here(recording, output)
     else:
-        machine.drive(os.environ["ROADPOSE_VM_PARTS"], REPLAY, recording, work, output)
+        parts = os.environ["ROADPOSE_VM_PARTS"]
+        subprocess.run(["sh", HERE / "fetch.sh", parts], check=True)
+        machine.drive(parts, REPLAY, recording, work, output)
 
 
 class Bus(unittest.TestCase):
@@ -107,4 +112,7 @@ class Bus(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if WHERE == "vm" and platform.machine() != "x86_64":
+        print("no CAN in this kernel, and the virtual machine is for x86-64")
+        sys.exit(77)
     unittest.main()

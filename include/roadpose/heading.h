@@ -145,6 +145,30 @@ typedef struct {
     uint16_t count;
 } roadpose_voters_t;
 
+/* Normal equations of up to five unknowns, and their factors. */
+typedef struct {
+    int64_t h[5][5]; /* lower triangle: weight j j, q40 */
+    int64_t g[5];    /* weight j e, q46 */
+} roadpose_sums_t;
+
+typedef struct {
+    uint32_t unknowns;
+    uint32_t half_shift; /* d, l and z are scaled down by 2^(2 half_shift) */
+    int64_t d[5];
+    int64_t l[5][5];     /* below the diagonal, q20 */
+    int64_t z[5];
+} roadpose_factors_t;
+
+#define ROADPOSE_NOISE_BINS 64
+
+/* One round of a fit. */
+typedef struct {
+    roadpose_sums_t sums;
+    roadpose_factors_t factors;
+    uint16_t bins[ROADPOSE_NOISE_BINS];
+    uint16_t agreeing; /* moving flows within three deviations that stream away from the focus */
+} roadpose_round_t;
+
 typedef struct {
     uint32_t ready;
     roadpose_heading_settings_t settings;
@@ -153,6 +177,7 @@ typedef struct {
     uint16_t flows;
     uint16_t flows_moving; /* the first ones */
     roadpose_voters_t voters;
+    roadpose_round_t round;
     int32_t history_urad[ROADPOSE_YAW_HISTORY];
     int32_t history_sigma_urad[ROADPOSE_YAW_HISTORY];
     int32_t sorted_urad[ROADPOSE_YAW_HISTORY];

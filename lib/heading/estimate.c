@@ -10,7 +10,7 @@
 #define HYPOTHESES 56u
 #define HYPOTHESES_TURNING 5u /* for each of the rotations that are tried */
 #define FOCUS_ROUNDS 2u, 1u /* coarse, fine */
-#define MOTION_ROUNDS 2u, 2u
+#define MOTION_ROUNDS 2u, 1u /* and a last one, which tells what the fit leaves open */
 #define LAST_ROUNDS 1u
 #define LAST_ROUNDS_TURNED 2u /* the focus has just been moved */
 #define BETTER_Q8 2048       /* a fit that began in a turn must cost this much less: 8 squared deviations */
@@ -105,10 +105,10 @@ static bool fit_free(roadpose_heading_t *instance, bool rate_known, uint32_t sco
     out->motion.noise_q22 = (start > out->focus.noise_q22) ? start : out->focus.noise_q22;
     if (turning_score * 8u > score * 9u) {
         out->motion = turning;
-        return roadpose_fit_motion(instance, &out->motion, MOTION_ROUNDS);
+        return roadpose_fit_rounds(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS);
     }
-    const bool found = roadpose_fit_motion(instance, &out->motion, MOTION_ROUNDS);
-    if (turning_score <= score || !roadpose_fit_motion(instance, &turning, MOTION_ROUNDS)) {
+    const bool found = roadpose_fit_rounds(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS);
+    if (turning_score <= score || !roadpose_fit_rounds(instance, &turning, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS)) {
         return found;
     }
     if (!found) {
@@ -164,38 +164,38 @@ static void yaw_direction(const int32_t *normal_q30, int32_t *c_q16) {
     c_q16[4] = 0;
 }
 
+/* What the free fit leaves open, and the choice. */
+static void judge(const roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
+    const int32_t about_y_q16[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
+    const roadpose_factors_t *factors = &instance->round.factors;
+    const int32_t noise = out->motion.noise_q22;
+    choose(factors, out);
+    out->free_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, along_q16, noise);
+    out->rate_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, about_y_q16, noise);
+}
+
 /* Fits, choice, and what they leave open. False: the tracks do not tell one focus. */
 static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
     uint32_t random = instance->settings.seed;
-    roadpose_pass_t pass;
-    roadpose_factors_t factors;
-    int32_t along[ROADPOSE_UNKNOWNS_MOTION];
-    const int32_t about_y[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
+    int32_t along_q16[ROADPOSE_UNKNOWNS_MOTION];
     roadpose_voters_choose(instance);
     const uint32_t score = roadpose_focus_search(instance, HYPOTHESES, &random, &out->focus.motion);
     out->focus.noise_q22 = roadpose_noise_max_q22(instance);
-    if (score == 0 || !roadpose_fit_focus(instance, &out->focus, FOCUS_ROUNDS) ||
-        !fit_free(instance, rate_known, score, &random, out)) {
+    if (score == 0 || !roadpose_fit_rounds(instance, &out->focus, ROADPOSE_UNKNOWNS_FOCUS, FOCUS_ROUNDS) ||
+        !fit_free(instance, rate_known, score, &random, out) ||
+        !roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
         return false;
     }
-    roadpose_fit_pass(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1, &pass);
-    if (!roadpose_factorise(&pass.sums, ROADPOSE_UNKNOWNS_MOTION, &factors)) {
-        return false;
-    }
-    choose(&factors, out);
-    yaw_direction(normal_q30, along);
-    out->free_deviation = roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_MOTION, along, out->motion.noise_q22);
-    out->rate_deviation = roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_MOTION, about_y, out->motion.noise_q22);
+    yaw_direction(normal_q30, along_q16);
+    judge(instance, along_q16, out);
     const unsigned rounds = (out->left_q16 < 65536) ? LAST_ROUNDS_TURNED : LAST_ROUNDS;
-    if (!roadpose_fit_focus(instance, &out->chosen, 0, rounds)) {
+    if (!roadpose_fit_rounds(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, 0, rounds)) {
         return false;
     }
-    roadpose_fit_pass(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, 1, &pass);
-    out->chosen.noise_q22 = pass.noise_q22;
-    out->agreeing = pass.agreeing;
-    const bool told = roadpose_factorise(&pass.sums, ROADPOSE_UNKNOWNS_FOCUS, &factors);
-    out->deviation = told ? roadpose_deviation(&factors, ROADPOSE_UNKNOWNS_FOCUS, along, out->chosen.noise_q22) : 0;
-    return told;
+    out->agreeing = instance->round.agreeing;
+    out->deviation = roadpose_deviation(&instance->round.factors, ROADPOSE_UNKNOWNS_FOCUS, along_q16,
+                                        out->chosen.noise_q22);
+    return true;
 }
 
 /* Standard deviation of the yaw: of the chosen fit; where a rotation was seen, also what that rotation leaves open, and

@@ -7,8 +7,8 @@
 #define FOCUS_LIMIT_Q24 (INT32_C(1) << 24)
 #define TURN_LIMIT_Q24 (INT32_C(1) << 22)
 #define R_MIN_Q16 256 /* nearer to the focus than this a flow tells nothing: 2 px at a focal length of 500 px */
-#define NOISE_BINS 64u
-#define MANY_FLOWS 96u
+#define NOISE_BINS ((unsigned)ROADPOSE_NOISE_BINS)
+#define FEW_FLOWS 64u /* a coarse round looks at no fewer */
 #define CUT_QUARTERS 13 /* Tukey's biweight ends at 13/4 standard deviations */
 
 /* A motion, prepared for looking at many flows. */
@@ -134,11 +134,17 @@ static int32_t noise_of_histogram(const uint16_t *bins, unsigned total, int32_t 
 
 /* Histogram of |e| below four times the noise so far. */
 typedef struct {
-    uint16_t bins[NOISE_BINS];
+    uint16_t *bins;
     unsigned total;
     int32_t limit_q22; /* <= 4 * 2^17 */
     uint32_t inverse;  /* 64 * 2^24 over it */
 } histogram_t;
+
+static histogram_t histogram_of(roadpose_heading_t *instance, int32_t noise_q22) {
+    const int32_t limit_q22 = 4 * noise_q22;
+    memset(instance->round.bins, 0, sizeof instance->round.bins);
+    return (histogram_t){instance->round.bins, 0, limit_q22, (NOISE_BINS << 24) / (uint32_t)limit_q22};
+}
 
 static void histogram_add(histogram_t *histogram, int32_t off_q22) {
     if (off_q22 < histogram->limit_q22) {
@@ -156,14 +162,13 @@ static int32_t noise_of(const roadpose_heading_t *instance, const histogram_t *h
     return (int32_t)roadpose_clamp(noise, roadpose_noise_min_q22(instance), roadpose_noise_max_q22(instance));
 }
 
-void roadpose_fit_pass(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
-                       unsigned stride, roadpose_pass_t *pass) {
-    histogram_t histogram = {.limit_q22 = 4 * fit->noise_q22};
-    histogram.inverse = (NOISE_BINS << 24) / (uint32_t)histogram.limit_q22;
+/* Sums and agreement at *fit; returns the noise there. */
+static int32_t pass(roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
+    histogram_t histogram = histogram_of(instance, fit->noise_q22);
     const cut_t cut = cut_of(fit->noise_q22);
     const view_t view = view_of(&fit->motion, fit->noise_q22);
     unsigned agreeing = 0;
-    memset(&pass->sums, 0, sizeof pass->sums);
+    memset(&instance->round.sums, 0, sizeof instance->round.sums);
     for (unsigned i = 0; i < instance->flows; i += stride) {
         const sight_t s = look(&instance->flow[i], &view);
         if (!s.outward) {
@@ -180,10 +185,10 @@ void roadpose_fit_pass(const roadpose_heading_t *instance, const roadpose_fit_t 
         if (unknowns == ROADPOSE_UNKNOWNS_MOTION) {
             turn_row(&s, &instance->flow[i], &j_q16[ROADPOSE_UNKNOWNS_FOCUS]);
         }
-        roadpose_sums_add(&pass->sums, unknowns, j_q16, s.e_q22, weight);
+        roadpose_sums_add(&instance->round.sums, unknowns, j_q16, s.e_q22, weight);
     }
-    pass->noise_q22 = noise_of(instance, &histogram, fit->noise_q22);
-    pass->agreeing = (uint16_t)agreeing;
+    instance->round.agreeing = (uint16_t)agreeing;
+    return noise_of(instance, &histogram, fit->noise_q22);
 }
 
 /* A focus unknown is a sixteenth of the focus: its q28 is the focus in q24. */
@@ -199,45 +204,33 @@ static void step_turn(int32_t *turn_q24, int32_t x_q28) {
                                         TURN_LIMIT_Q24);
 }
 
-/* One round: a pass, and the step that it asks for. */
-static bool improve(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
-    roadpose_pass_t pass;
-    roadpose_factors_t factors;
+bool roadpose_fit_round(roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
     int32_t x_q28[ROADPOSE_UNKNOWNS_MOTION];
-    roadpose_fit_pass(instance, fit, unknowns, stride, &pass);
-    if (!roadpose_factorise(&pass.sums, unknowns, &factors)) {
+    const int32_t noise_q22 = pass(instance, fit, unknowns, stride);
+    if (!roadpose_factorise(&instance->round.sums, unknowns, &instance->round.factors)) {
         return false;
     }
-    roadpose_solve(&factors, x_q28);
+    roadpose_solve(&instance->round.factors, x_q28);
     step_focus(&fit->motion, x_q28);
-    if (unknowns == ROADPOSE_UNKNOWNS_MOTION) {
-        step_turn(&fit->motion.turn_q24[0], x_q28[2]);
-        step_turn(&fit->motion.turn_q24[2], x_q28[3]);
-        step_turn(&fit->motion.turn_q24[1], x_q28[4]);
-        fit->noise_q22 = (pass.noise_q22 < fit->noise_q22) ? pass.noise_q22 : fit->noise_q22;
-    } else {
-        fit->noise_q22 = pass.noise_q22;
+    if (unknowns == ROADPOSE_UNKNOWNS_FOCUS) {
+        fit->noise_q22 = noise_q22;
+        return true;
     }
+    step_turn(&fit->motion.turn_q24[0], x_q28[2]);
+    step_turn(&fit->motion.turn_q24[2], x_q28[3]);
+    step_turn(&fit->motion.turn_q24[1], x_q28[4]);
+    fit->noise_q22 = (noise_q22 < fit->noise_q22) ? noise_q22 : fit->noise_q22;
     return true;
 }
 
-/* The first rounds only have to come near: of many flows they look at every second one. */
-static bool improve_often(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned coarse,
-                          unsigned fine) {
-    const unsigned stride = (instance->flows >= MANY_FLOWS) ? 2u : 1u;
+bool roadpose_fit_rounds(roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned coarse,
+                         unsigned fine) {
+    const unsigned stride = (instance->flows < 2u * FEW_FLOWS) ? 1u : instance->flows / FEW_FLOWS;
     bool told = true;
     for (unsigned round = 0; told && round < coarse + fine; round++) {
-        told = improve(instance, fit, unknowns, (round < coarse) ? stride : 1u);
+        told = roadpose_fit_round(instance, fit, unknowns, (round < coarse) ? stride : 1u);
     }
     return told;
-}
-
-bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine) {
-    return improve_often(instance, fit, ROADPOSE_UNKNOWNS_FOCUS, coarse, fine);
-}
-
-bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine) {
-    return improve_often(instance, fit, ROADPOSE_UNKNOWNS_MOTION, coarse, fine);
 }
 
 /* rho = (1 - (1 - u^2)^3) * cut^2 / 3 in noise^2: at most (13/4)^2 / 3 = 3.52 (q8: 901). */

@@ -12,22 +12,14 @@ typedef struct {
     int32_t noise_q22;
 } roadpose_fit_t;
 
-/* Normal equations at *fit, and what its flows show there. */
-typedef struct {
-    roadpose_sums_t sums;
-    int32_t noise_q22;
-    uint16_t agreeing; /* moving flows within three deviations of *fit that stream away from the focus */
-} roadpose_pass_t;
+/* One pass over every stride-th flow, and the step that it asks for. instance->round then tells the sums and factors
+ * where the pass was made, and fit->noise_q22 the noise there (with a rotation: the noise only falls). False where the
+ * flows do not tell the unknowns. */
+bool roadpose_fit_round(roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned stride);
 
-/* One pass over every stride-th flow. */
-void roadpose_fit_pass(const roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns,
-                       unsigned stride, roadpose_pass_t *pass);
-
-/* Improves the focus, rotation kept, and measures the noise, in coarse rounds and then fine ones. False where the flows do not tell it. */
-bool roadpose_fit_focus(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine);
-
-/* Improves focus and rotation; the noise only falls. False where the flows do not tell them. */
-bool roadpose_fit_motion(const roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned coarse, unsigned fine);
+/* Coarse rounds, which look at part of the flows, and then fine ones. */
+bool roadpose_fit_rounds(roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned coarse,
+                         unsigned fine);
 
 /* Robust cost (Tukey's) of a motion at a given noise, q8: about the sum of squared deviations, at most
  * ROADPOSE_COST_OUTLIER_Q8 for each flow. */

@@ -1,5 +1,7 @@
 #include "heading/flow_field.h"
 
+#include <string.h>
+
 void roadpose_lens_prepare(roadpose_lens_t *lens, const roadpose_rig_t *rig) {
     const int64_t focal = rig->focal_millipx;
     /* 2^24 / 256 * 1000 = 65536000 < 2^26; in q20 < 2^46; >= 50 000 divides it to < 2^31 */
@@ -96,13 +98,16 @@ static void keep_evenly(roadpose_heading_t *instance, const roadpose_track_t *tr
 
 void roadpose_flow_take(roadpose_heading_t *instance, const roadpose_track_t *tracks, size_t count,
                         roadpose_yaw_t *yaw) {
-    const size_t usable = usable_tracks(&instance->lens, tracks, count);
+    /* Few tracks are all kept: only of many must it be known beforehand how many are usable. */
+    const size_t usable = (count > ROADPOSE_MAX_TRACKS) ? usable_tracks(&instance->lens, tracks, count) : count;
     const size_t kept = (usable > ROADPOSE_MAX_TRACKS) ? ROADPOSE_MAX_TRACKS : usable;
     instance->flows = 0;
     instance->flows_moving = 0;
     keep_evenly(instance, tracks, count, usable, kept);
+    const size_t still = (size_t)(instance->flows - instance->flows_moving);
+    memmove(&instance->flow[instance->flows_moving], &instance->flow[kept - still], still * sizeof instance->flow[0]);
     yaw->tracks_used = instance->flows;
     yaw->tracks_moving = instance->flows_moving;
-    yaw->dropped_outside = count_32(count - usable);
     yaw->dropped_limit = count_32(usable - kept);
+    yaw->dropped_outside = count_32(count - (usable - kept) - instance->flows);
 }

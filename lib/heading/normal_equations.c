@@ -18,45 +18,42 @@ static unsigned shift_of(const roadpose_sums_t *sums, unsigned unknowns) {
     return shift + (shift & 1u);
 }
 
-/* One column of the decomposition. h holds the remaining Schur complement: |h| <= 2^34 (positive definite, so no entry
- * exceeds the largest diagonal): 2^54 in q20; |L h| <= 2^27 * 2^34 = 2^61. */
-static bool eliminate(int64_t h[][ROADPOSE_UNKNOWNS_MOTION], unsigned column, int64_t pivot_min,
-                      roadpose_factors_t *factors) {
-    const int64_t pivot = h[column][column];
+/* One column of the decomposition. Below and right of it, l holds the remaining Schur complement h: |h| <= 2^34
+ * (positive definite, so no entry exceeds the largest diagonal): 2^54 in q20; |L h| <= 2^27 * 2^34 = 2^61. */
+static bool eliminate(roadpose_factors_t *f, unsigned column, int64_t pivot_min) {
+    const int64_t pivot = f->l[column][column];
     if (pivot <= pivot_min) {
         return false;
     }
-    factors->d[column] = pivot;
-    for (unsigned i = column + 1; i < factors->unknowns; i++) {
-        factors->l[i][column] = roadpose_clamp(h[i][column] * (INT64_C(1) << 20) / pivot, -L_LIMIT, L_LIMIT);
-        for (unsigned k = column + 1; k <= i; k++) {
-            const int64_t part = roadpose_floor_shift(factors->l[i][column] * h[k][column], 20);
-            h[i][k] = roadpose_clamp(h[i][k] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
+    f->d[column] = pivot;
+    for (unsigned i = f->unknowns - 1u; i > column; i--) {
+        const int64_t ratio = roadpose_clamp(f->l[i][column] * (INT64_C(1) << 20) / pivot, -L_LIMIT, L_LIMIT);
+        for (unsigned k = column + 1; k <= i; k++) { /* rows above i still hold h in this column */
+            const int64_t part = roadpose_floor_shift(ratio * f->l[k][column], 20);
+            f->l[i][k] = roadpose_clamp(f->l[i][k] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
         }
-        const int64_t part = roadpose_floor_shift(factors->l[i][column] * factors->z[column], 20);
-        factors->z[i] = roadpose_clamp(factors->z[i] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
+        const int64_t part = roadpose_floor_shift(ratio * f->z[column], 20);
+        f->z[i] = roadpose_clamp(f->z[i] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
+        f->l[i][column] = ratio;
     }
     return true;
 }
 
 bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose_factors_t *factors) {
-    int64_t h[ROADPOSE_UNKNOWNS_MOTION][ROADPOSE_UNKNOWNS_MOTION];
     const unsigned shift = shift_of(sums, unknowns);
     factors->unknowns = unknowns;
     factors->half_shift = shift / 2;
     for (unsigned i = 0; i < unknowns; i++) {
         for (unsigned k = 0; k <= i; k++) {
-            h[i][k] = roadpose_floor_shift(sums->h[i][k], shift);
+            factors->l[i][k] = roadpose_floor_shift(sums->h[i][k], shift);
         }
         factors->z[i] = roadpose_floor_shift(sums->g[i], shift);
     }
-    for (unsigned column = 0; column < unknowns; column++) {
-        const int64_t pivot_min = roadpose_floor_shift(sums->h[column][column], shift + PIVOT_SHARE);
-        if (!eliminate(h, column, pivot_min, factors)) {
-            return false;
-        }
+    bool told = true;
+    for (unsigned column = 0; told && column < unknowns; column++) {
+        told = eliminate(factors, column, roadpose_floor_shift(sums->h[column][column], shift + PIVOT_SHARE));
     }
-    return true;
+    return told;
 }
 
 /* L^T x = y, from the last unknown up. |L| <= 2^27, |x| <= 2^28: products below 2^55, sums of four below 2^57. */

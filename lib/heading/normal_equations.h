@@ -6,25 +6,10 @@
 #ifndef ROADPOSE_HEADING_NORMAL_EQUATIONS_H
 #define ROADPOSE_HEADING_NORMAL_EQUATIONS_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "roadpose/heading.h"
 
 #define ROADPOSE_UNKNOWNS_FOCUS 2u
 #define ROADPOSE_UNKNOWNS_MOTION 5u
-
-typedef struct {
-    int64_t h[ROADPOSE_UNKNOWNS_MOTION][ROADPOSE_UNKNOWNS_MOTION]; /* lower triangle: weight j j, q40 */
-    int64_t g[ROADPOSE_UNKNOWNS_MOTION];                           /* weight j e, q46 */
-} roadpose_sums_t;
-
-/* H = L D L^T: D scaled down by 2^shift (even), L below the diagonal in q20; z = L^-1 g, scaled as D. */
-typedef struct {
-    unsigned unknowns;
-    unsigned half_shift;
-    int64_t d[ROADPOSE_UNKNOWNS_MOTION];
-    int64_t l[ROADPOSE_UNKNOWNS_MOTION][ROADPOSE_UNKNOWNS_MOTION];
-    int64_t z[ROADPOSE_UNKNOWNS_MOTION];
-} roadpose_factors_t;
 
 /* Adds one row to the first `unknowns` rows and columns. Sums of 512 rows: weight j < 2^28, times j or e: < 2^48; < 2^57. */
 static inline void roadpose_sums_add(roadpose_sums_t *sums, unsigned unknowns, const int32_t *j_q16, int32_t e_q22,
@@ -38,7 +23,7 @@ static inline void roadpose_sums_add(roadpose_sums_t *sums, unsigned unknowns, c
     }
 }
 
-/* False where a pivot has less than 2^-14 of its diagonal left: the rows do not tell the unknowns apart. */
+/* H = L D L^T, scaled down by an even power of two, and z = L^-1 g. False where a pivot has less than 2^-14 of its diagonal left: the rows do not tell the unknowns apart. */
 bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose_factors_t *factors);
 
 /* Solution in q28, each component clamped to +-1. */

@@ -5,8 +5,9 @@
 
 #include <stddef.h>
 
+#include "command_line.h"
+
 #define SEMIHOSTING_GET_COMMAND_LINE 0x15
-#define COMMAND_LINE_BYTES 1024
 
 #define SYSTICK_MAX UINT32_C(0x00FFFFFF)
 #define SYSTICK_ENABLE_CORE_CLOCK UINT32_C(5)
@@ -28,20 +29,6 @@ static int32_t semihosting(int32_t operation, void *block) {
     register void *r1 __asm__("r1") = block;
     __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
     return r0;
-}
-
-/* Arguments are separated by blanks and cannot contain any. */
-static void split(board_arguments_t *arguments, char *text) {
-    arguments->count = 0;
-    while (arguments->count < BOARD_ARGUMENTS_MAX) {
-        while (*text == ' ')
-            *text++ = '\0';
-        if (*text == '\0')
-            return;
-        arguments->values[arguments->count++] = text;
-        while (*text != ' ' && *text != '\0')
-            text++;
-    }
 }
 
 static uint32_t ticks(void) {
@@ -77,7 +64,7 @@ void board_start(board_arguments_t *arguments, int count, char *const values[]) 
     (void)values;
     arguments->count = 0;
     if (semihosting(SEMIHOSTING_GET_COMMAND_LINE, &block) == 0)
-        split(arguments, line);
+        command_line_split(arguments, line);
     start_counter();
 }
 

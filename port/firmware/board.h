@@ -6,8 +6,8 @@
 #include <stdint.h>
 
 /* Memory of the library (state, ports, stack), as large as the product gives it; and the memory that the camera's DMA
- * writes to. On a hosted machine both are ordinary memory. */
-#ifdef ROADPOSE_BARE_METAL
+ * writes to. Where the board's linker script does not tell them apart, both are ordinary memory. */
+#ifdef ROADPOSE_BOARD_SECTIONS
 #define BOARD_LIBRARY_RAM __attribute__((section(".library_ram")))
 #define BOARD_EXTERNAL_RAM __attribute__((section(".external_ram")))
 #else
@@ -15,7 +15,7 @@
 #define BOARD_EXTERNAL_RAM
 #endif
 
-#define BOARD_ARGUMENTS_MAX 8
+#define BOARD_ARGUMENTS_MAX 10
 
 typedef struct {
     int count;
@@ -26,8 +26,9 @@ typedef struct {
  * debugger or emulator gives; values[0] is the program. */
 void board_start(board_arguments_t *arguments, int count, char *const values[]);
 
-/* Executed instructions since the last call, the call's own included; 0 where the board cannot count them. Call it at
- * least once in 100 million instructions. */
+/* Executed instructions since the last call, the call's own included; 0 where the board cannot count them. True only
+ * where every instruction takes the same time, as in an emulator that counts them. Call it at least once in 100
+ * million instructions. */
 uint32_t board_instructions(void);
 
 #endif

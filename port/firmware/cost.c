@@ -18,7 +18,6 @@ void cost_end_frame(cost_t *cost) {
 }
 
 void cost_print(const cost_t *cost) {
-    if (cost->instructions != 0)
-        (void)fprintf(stderr, "frames %" PRIu32 " instructions %" PRIu64 " worst_frame %" PRIu32 " worst_slice %" PRIu32 "\n",
-                      cost->frames, cost->instructions, cost->worst_frame, cost->worst_slice);
+    (void)fprintf(stderr, "frames %" PRIu32 " instructions %" PRIu64 " worst_frame %" PRIu32 " worst_slice %" PRIu32 "\n",
+                  cost->frames, cost->instructions, cost->worst_frame, cost->worst_slice);
 }

@@ -5,7 +5,6 @@
 
 #include "board.h"
 #include "candump.h"
-#include "cost.h"
 #include "csv.h"
 #include "fault.h"
 #include "pgm.h"
@@ -118,33 +117,41 @@ static bool play_frame(const char *folder, uint32_t index) {
     return fflush(stdout) == 0;
 }
 
-static bool set_up(const char *folder) {
+static bool init_component(const player_options_t *options) {
     const roadpose_camera_platform_t platform = {&component.camera, NULL, NULL, take_back, NULL, keep_pose};
     const roadpose_can_port_t bus = {&can, send, NULL};
+    roadpose_can_settings_t settings;
+
+    return roadpose_init(&component.estimator, &rig_file.rig, &rig_file.format, &options->settings) == ROADPOSE_OK &&
+           roadpose_camera_init(&component.port, &platform, &component.estimator) == ROADPOSE_OK &&
+           roadpose_can_settings_default(&settings, options->profile) &&
+           roadpose_can_transmit_init(&component.transmit, &settings, &bus) == ROADPOSE_CAN_DONE;
+}
+
+static bool set_up(const player_options_t *options) {
     static char path[PATH_BYTES];
 
-    if (!join_path(path, folder, "rig.yml") || !rig_file_read(&rig_file, path))
+    if (!join_path(path, options->folder, "rig.yml") || !rig_file_read(&rig_file, path))
         return false;
     if (roadpose_state_bytes() != ROADPOSE_STATE_BYTES)
         return fault(NULL, "the library was built with other limits");
-    if (roadpose_init(&component.estimator, &rig_file.rig, &rig_file.format, NULL) != ROADPOSE_OK ||
-        roadpose_camera_init(&component.port, &platform, &component.estimator) != ROADPOSE_OK ||
-        roadpose_can_transmit_init(&component.transmit, NULL, &bus) != ROADPOSE_CAN_DONE)
-        return fault(path, "the estimator refuses the rig");
-    return true;
+    return init_component(options) || fault(path, "the estimator refuses the rig or the settings");
 }
 
-bool player_play(const char *folder, uint32_t count, const char *can_log) {
-    bool is_good = set_up(folder);
+bool player_play(const player_options_t *options) {
+    bool is_good = set_up(options);
     uint32_t index;
 
     if (!is_good)
         return false;
-    if (!roadpose_candump_open(&can.log, can_log, "can0"))
-        return fault(can_log, "cannot be written");
+    if (!roadpose_candump_open(&can.log, options->can_log, "can0"))
+        return fault(options->can_log, "cannot be written");
     csv_print_header(stdout);
-    for (index = 0; is_good && index < count; index++)
-        is_good = play_frame(folder, index);
-    cost_print(&cost);
+    for (index = 0; is_good && index < options->frames; index++)
+        is_good = play_frame(options->folder, index);
     return roadpose_candump_close(&can.log) && is_good;
+}
+
+const cost_t *player_cost(void) {
+    return &cost;
 }

@@ -5,9 +5,22 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Plays folder/disparity/000000.pgm, 000001.pgm, ... (count of them); prints the CSV of roadpose-replay on standard output and
- * writes what went to the CAN bus to the file can_log, in the log format of can-utils. False after a fault was
- * reported on standard error. */
-bool player_play(const char *folder, uint32_t count, const char *can_log);
+#include "cost.h"
+#include "roadpose/e2e.h"
+#include "roadpose/rig.h"
+
+typedef struct {
+    const char *folder;  /* of the recording */
+    uint32_t frames;     /* how many of folder/disparity/000000.pgm, 000001.pgm, ... */
+    const char *can_log; /* file for what goes to the CAN bus, in the log format of can-utils */
+    roadpose_settings_t settings;
+    roadpose_e2e_profile_t profile;
+} player_options_t;
+
+/* Plays, and prints the CSV of roadpose-replay on standard output. False after a fault was reported on standard error. */
+bool player_play(const player_options_t *options);
+
+/* What the frames cost. */
+const cost_t *player_cost(void);
 
 #endif

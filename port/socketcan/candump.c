@@ -36,8 +36,9 @@ static bool parse_data(const char *hex, roadpose_candump_frame_t *frame) {
     const size_t digits = strspn(hex, "0123456789ABCDEFabcdef");
     if (digits % 2u != 0u || digits > 2u * ROADPOSE_CAN_BYTES)
         return false;
-    frame->length = (uint8_t)(digits / 2u);
-    for (unsigned i = 0; i < frame->length; i++) {
+    const size_t bytes = digits / 2u;
+    frame->length = (uint8_t)bytes;
+    for (size_t i = 0; i < bytes; i++) {
         const char pair[3] = {hex[2u * i], hex[2u * i + 1u], '\0'};
         frame->data[i] = (uint8_t)strtoul(pair, NULL, 16);
     }

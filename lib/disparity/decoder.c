@@ -3,8 +3,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "fixed_point/fixed_point.h"
-
 #define OFFSET_MAX_MILLIPX 16000
 #define SIGN_BIT UINT16_C(0x8000)
 
@@ -65,7 +63,8 @@ bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_dispar
     decoder->confidence_min = least_confidence(format, in_sample);
     decoder->image_confidence_min = format->confidence_min;
     /* |offset| <= 16 000, so the product is below 2^23; the half rounds to the nearest 1/256 px. */
-    decoder->offset_q8 = (int32_t)roadpose_floor_shift(((int64_t)format->offset_millipx * 512) / 1000 + 1, 1u);
+    const int32_t half = (format->offset_millipx >= 0) ? 500 : -500;
+    decoder->offset_q8 = (format->offset_millipx * 256 + half) / 1000;
     return true;
 }
 

@@ -1,5 +1,9 @@
 #include "fixed_point/fixed_point.h"
 
+int64_t roadpose_scale(int64_t x, int bits) {
+    return roadpose_floor_shift(x, (unsigned)-bits);
+}
+
 uint32_t roadpose_sqrt(uint64_t x) {
     uint64_t root = 0;
     uint64_t rest = x;

@@ -29,6 +29,9 @@ static inline int32_t roadpose_clamp32(int64_t x) {
     return (int32_t)roadpose_clamp(x, INT32_MIN, INT32_MAX);
 }
 
+/* floor(x * 2^bits); bits in -63...0. A call instead of inline code, for where speed is nothing and size something. */
+int64_t roadpose_scale(int64_t x, int bits);
+
 /* floor(sqrt(x)). 32 rounds, no division. */
 uint32_t roadpose_sqrt(uint64_t x);
 

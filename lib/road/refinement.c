@@ -227,76 +227,74 @@ void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *po
     row_sums_flush(moments, &sums, y);
 }
 
-/* Second moments about the mean, times n^2: n < 2^15, sums of squares < 2^15 * 2^20, so below 2^51. */
+/* Second moments about the mean, times n^2, cut to 30 bits: n < 2^15 and sums of squares < 2^15 * 2^20, so below 2^51
+ * before the cut. It costs 2^-30 of the largest moment, far below the noise, and products stay below 2^60. */
 typedef struct {
-    int64_t xx, xy, yy, xr, yr;
+    int32_t xx, xy, yy, xr, yr;
+    int cut;   /* bits cut off xx, xy and yy */
+    int cut_r; /* bits cut off xr and yr */
 } spread_t;
-
-static void spread_about_mean(const roadpose_moments_t *m, spread_t *s) {
-    s->xx = m->n * m->xx - m->x * m->x;
-    s->xy = m->n * m->xy - m->x * m->y;
-    s->yy = m->n * m->yy - m->y * m->y;
-    s->xr = m->n * m->xr - m->x * m->r;
-    s->yr = m->n * m->yr - m->y * m->r;
-}
 
 static int64_t larger(int64_t a, int64_t b) {
     return (a > b) ? a : b;
 }
 
-/* numerator / denominator * 2^bits for bits of either sign. */
-static int64_t scaled_ratio(int64_t numerator, int64_t denominator, int bits) {
-    if (bits >= 0) {
-        return roadpose_ratio(numerator, denominator, (unsigned)((bits > 40) ? 40 : bits));
-    }
-    return roadpose_floor_shift(roadpose_ratio(numerator, denominator, 0), (unsigned)((bits < -62) ? 62 : -bits));
+static void spread_about_mean(const roadpose_moments_t *m, spread_t *s) {
+    const int64_t xx = m->n * m->xx - m->x * m->x;
+    const int64_t yy = m->n * m->yy - m->y * m->y;
+    const int64_t xr = m->n * m->xr - m->x * m->r;
+    const int64_t yr = m->n * m->yr - m->y * m->r;
+    s->cut = (int)roadpose_excess_bits(larger(xx, yy), 30);
+    s->cut_r = (int)roadpose_excess_bits(larger(roadpose_abs(xr), roadpose_abs(yr)), 30);
+    s->xx = (int32_t)roadpose_scale(xx, -s->cut);
+    s->yy = (int32_t)roadpose_scale(yy, -s->cut);
+    s->xy = (int32_t)roadpose_scale(m->n * m->xy - m->x * m->y, -s->cut); /* xy^2 <= xx yy */
+    s->xr = (int32_t)roadpose_scale(xr, -s->cut_r);
+    s->yr = (int32_t)roadpose_scale(yr, -s->cut_r);
 }
 
-/* The 2 x 2 system by Cramer's rule on numbers cut to 30 bits, so that the products stay below 2^61. The cut costs
- * 2^-30 of the largest moment, far below the noise. Results: Q24 pixels per grid step. */
+/* numerator / denominator * 2^bits for bits of either sign. A step of more than 2^30 means nonsense: clamped, and the
+ * check of the pose refuses the plane. */
+static int64_t slope_step(int64_t numerator, int64_t denominator, int bits) {
+    const int64_t whole = roadpose_ratio(numerator, denominator, (unsigned)roadpose_clamp(bits, 0, 40));
+    const int64_t step = (bits < 0) ? roadpose_scale(whole, bits) : whole;
+    return roadpose_clamp(step, -(INT64_C(1) << 30), INT64_C(1) << 30);
+}
+
+/* The 2 x 2 system by Cramer's rule. Results: Q24 pixels per grid step. */
 static void solve_slopes(const spread_t *s, bool roll_observed, int64_t *a_q24, int64_t *b_q24) {
-    const unsigned cut = roadpose_excess_bits(larger(s->xx, s->yy), 30);
-    const unsigned cut_r = roadpose_excess_bits(larger(roadpose_abs(s->xr), roadpose_abs(s->yr)), 30);
-    const int64_t xx = s->xx >> cut;
-    const int64_t yy = s->yy >> cut;
-    const int64_t xy = roadpose_floor_shift(s->xy, cut);
-    const int64_t xr = roadpose_floor_shift(s->xr, cut_r);
-    const int64_t yr = roadpose_floor_shift(s->yr, cut_r);
-    const int bits = 16 + (int)cut_r - (int)cut; /* residuals are Q8, slopes Q24 */
+    const int bits = 16 + s->cut_r - s->cut; /* residuals are Q8, slopes Q24 */
     if (roll_observed) {
-        const int64_t determinant = xx * yy - xy * xy;
-        *a_q24 = scaled_ratio(xr * yy - yr * xy, determinant, bits);
-        *b_q24 = scaled_ratio(yr * xx - xr * xy, determinant, bits);
+        const int64_t determinant = (int64_t)s->xx * s->yy - (int64_t)s->xy * s->xy;
+        *a_q24 = slope_step((int64_t)s->xr * s->yy - (int64_t)s->yr * s->xy, determinant, bits);
+        *b_q24 = slope_step((int64_t)s->yr * s->xx - (int64_t)s->xr * s->xy, determinant, bits);
     } else {
         *a_q24 = 0;
-        *b_q24 = scaled_ratio(yr, yy, bits);
+        *b_q24 = slope_step(s->yr, s->yy, bits);
     }
 }
 
-/* Does the spread of one axis that the other does not explain reach `steps` grid steps (root mean square)? */
-static bool spreads(int64_t own, int64_t mixed, int64_t other, int64_t n, int64_t steps) {
-    const unsigned cut = roadpose_excess_bits(larger(own, other), 30);
-    const int64_t mixed_cut = roadpose_floor_shift(mixed, cut);
-    const int64_t other_cut = other >> cut;
-    const int64_t explained = (other_cut > 0) ? (mixed_cut * mixed_cut / other_cut) : 0;
-    return (own >> cut) - explained >= ((n * n * steps * steps) >> cut);
+/* Does the spread of one axis that the other does not explain reach `pixels` (root mean square)? */
+static bool spreads(const spread_t *s, int64_t n, int32_t own, int32_t other, int32_t mixed, int32_t pixels,
+                    int32_t step_px) {
+    const int64_t explained = (other > 0) ? ((int64_t)mixed * mixed / other) : 0;
+    const int64_t enough = n * n * pixels * pixels / (step_px * step_px); /* < 2^30 * 400 */
+    return own - explained >= roadpose_scale(enough, -s->cut);
 }
 
 bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *plane, bool *roll_observed) {
     spread_t s;
+    const int64_t n = moments->n;
     spread_about_mean(moments, &s);
-    if (moments->n <= 0 || !spreads(s.yy, 0, 1, moments->n, SPREAD_DOWN_MIN_PX / ROADPOSE_ROW_STEP)) {
+    if (n <= 0 || !spreads(&s, n, s.yy, 0, 0, SPREAD_DOWN_MIN_PX, ROADPOSE_ROW_STEP)) {
         return false;
     }
-    *roll_observed = spreads(s.xx, s.xy, s.yy, moments->n, SPREAD_SIDEWAYS_MIN_PX / ROADPOSE_COLUMN_STEP);
+    *roll_observed = spreads(&s, n, s.xx, s.yy, s.xy, SPREAD_SIDEWAYS_MIN_PX, ROADPOSE_COLUMN_STEP);
     int64_t a;
     int64_t b;
     solve_slopes(&s, *roll_observed, &a, &b);
-    /* a step of more than 2^30 means nonsense: clamp it, the pose check refuses the plane */
-    a = roadpose_clamp(a, -(INT64_C(1) << 30), INT64_C(1) << 30);
-    b = roadpose_clamp(b, -(INT64_C(1) << 30), INT64_C(1) << 30);
     /* mean residual: r sum in Q8 -> Q24: 2^15 * 2^10 * 2^16; x, y sums < 2^25: a * x < 2^55 */
-    const int64_t c = (moments->r * 65536 - a * moments->x - b * moments->y) / moments->n;
+    const int64_t c = (moments->r * 65536 - a * moments->x - b * moments->y) / n;
     plane->a_q24 = *roll_observed ? roadpose_clamp32(plane->a_q24 + a) : 0;
     plane->b_q24 = roadpose_clamp32(plane->b_q24 + b);
     plane->c_q24 = roadpose_clamp(plane->c_q24 + c, -(INT64_C(1) << 40), INT64_C(1) << 40);

@@ -97,8 +97,10 @@ static uint32_t level_start(const roadpose_cloud_t *cloud, uint32_t level) {
  * of the image, would decide alone, and a speed bump there would pass for the road. */
 static uint32_t draw_sort_level(const roadpose_cloud_t *cloud, uint32_t *random) {
     const uint32_t octaves = (uint32_t)cloud->last_octave - cloud->first_octave + 1u;
-    const uint32_t size = UINT32_C(1) << (cloud->first_octave + roadpose_lcg_below(random, octaves));
-    return size + roadpose_lcg_below(random, size);
+    const uint32_t start = UINT32_C(1) << (cloud->first_octave + roadpose_lcg_below(random, octaves));
+    /* where the levels are no power of two, the last octave is cut short; start < ROADPOSE_SORT_LEVELS always */
+    const uint32_t left = ROADPOSE_SORT_LEVELS - start;
+    return start + roadpose_lcg_below(random, (left < start) ? left : start);
 }
 
 /* Draws a point about as near in disparity as the first, wherever it stands in the image. */

@@ -110,7 +110,15 @@ static void cycles_without_a_frame_widen_the_allowance(void) {
     for (int i = 0; i < 4; i++)
         TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_NO_NEW_DATA, roadpose_e2e_check(&config, &receiver, NULL));
     TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_SOME_LOST, receive(&receiver, 7));
-    TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_WRONG_SEQUENCE, receive(&receiver, 14)); /* and narrow again */
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_WRONG_SEQUENCE, receive(&receiver, 11)); /* and narrow again */
+}
+
+static void the_allowance_widens_by_one_a_cycle_and_no_more(void) {
+    roadpose_e2e_receiver_t receiver = {0};
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_INITIAL, receive(&receiver, 0));
+    for (int i = 0; i < 4; i++)
+        TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_NO_NEW_DATA, roadpose_e2e_check(&config, &receiver, NULL));
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_WRONG_SEQUENCE, receive(&receiver, 8));
 }
 
 static void a_long_silence_neither_overflows_nor_hides_a_repetition(void) {
@@ -195,6 +203,7 @@ int main(void) {
     RUN_TEST(protect_refuses_what_is_out_of_range_and_leaves_the_data);
     RUN_TEST(the_receiver_goes_through_all_states);
     RUN_TEST(cycles_without_a_frame_widen_the_allowance);
+    RUN_TEST(the_allowance_widens_by_one_a_cycle_and_no_more);
     RUN_TEST(a_long_silence_neither_overflows_nor_hides_a_repetition);
     RUN_TEST(damage_is_found_in_every_profile);
     RUN_TEST(another_message_is_not_taken_for_ours);

@@ -82,6 +82,15 @@ static void an_estimate_is_held_until_it_is_too_old(void) {
     TEST_ASSERT_EQUAL_HEX8(0, sent_pose(3).valid);
 }
 
+static void an_estimate_of_exactly_the_largest_age_is_sent(void) {
+    publish(1500000, 0);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us + 250000u));
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us + 250001u));
+    TEST_ASSERT_EQUAL_HEX8(7, sent_pose(0).valid);
+    TEST_ASSERT_EQUAL_HEX8(0, sent_pose(1).valid);
+    TEST_ASSERT_EQUAL_UINT32(2, roadpose_can_transmit_counts(&transmit)->cycles);
+}
+
 static void an_estimate_dated_after_its_cycle_is_not_old(void) {
     now_us += 150000u;
     publish(1500000, 0);
@@ -186,6 +195,23 @@ static void every_setting_has_its_range(void) {
     TEST_ASSERT_FALSE(roadpose_can_settings_default(NULL, ROADPOSE_E2E_PROFILE_1));
 }
 
+static void the_ends_of_the_ranges_are_allowed(void) {
+    roadpose_can_settings_t settings;
+    TEST_ASSERT_TRUE(roadpose_can_settings_default(&settings, ROADPOSE_E2E_PROFILE_2));
+    settings.cycle_us = 1000;
+    settings.max_age_us = 0;
+    settings.timeout_cycles = 1;
+    settings.e2e[0].max_delta = 1;
+    TEST_ASSERT_TRUE(roadpose_can_settings_valid(&settings));
+    settings.cycle_us = 10000000;
+    settings.max_age_us = 600000000;
+    settings.timeout_cycles = 255;
+    settings.e2e[0].max_delta = 14;
+    settings.id[0] = ROADPOSE_CAN_STANDARD_MASK;
+    settings.id[1] = ROADPOSE_CAN_EXTENDED | ROADPOSE_CAN_EXTENDED_MASK;
+    TEST_ASSERT_TRUE(roadpose_can_settings_valid(&settings));
+}
+
 static void lists_of_profile_2_never_agree(void) {
     roadpose_can_settings_t settings;
     TEST_ASSERT_TRUE(roadpose_can_settings_default(&settings, ROADPOSE_E2E_PROFILE_2));
@@ -209,6 +235,7 @@ int main(void) {
     RUN_TEST(without_an_estimate_the_frames_say_so);
     RUN_TEST(an_estimate_is_sent_with_its_counts);
     RUN_TEST(an_estimate_is_held_until_it_is_too_old);
+    RUN_TEST(an_estimate_of_exactly_the_largest_age_is_sent);
     RUN_TEST(an_estimate_dated_after_its_cycle_is_not_old);
     RUN_TEST(counters_start_at_the_constant_and_run_over);
     RUN_TEST(a_full_queue_is_tried_again_until_the_cycle_ends);
@@ -216,6 +243,7 @@ int main(void) {
     RUN_TEST(after_the_deadline_nothing_old_is_sent);
     RUN_TEST(settings_and_pointers_are_checked);
     RUN_TEST(every_setting_has_its_range);
+    RUN_TEST(the_ends_of_the_ranges_are_allowed);
     RUN_TEST(lists_of_profile_2_never_agree);
     RUN_TEST(a_default_with_an_unknown_profile_changes_nothing);
     return UNITY_END();

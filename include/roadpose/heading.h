@@ -78,7 +78,8 @@ typedef enum {
     ROADPOSE_YAW_SLOW = 1,           /* the vehicle's speed is below speed_min_mm_s, or it drives backwards */
     ROADPOSE_YAW_TURNING = 2,        /* the vehicle's yaw rate, or the tracks, show a turn */
     ROADPOSE_YAW_FEW_TRACKS = 3,     /* fewer than tracks_min tracks within the image */
-    ROADPOSE_YAW_STANDING = 4,       /* too few tracks move */
+    ROADPOSE_YAW_STANDING = 4,       /* too few tracks move: under a fifth, or, where no speed is given, under a quarter
+                                        of all move and agree */
     ROADPOSE_YAW_NO_FOCUS = 5,       /* no single focus explains the tracks: too few agree with the best one */
     ROADPOSE_YAW_NOISY = 6,          /* they agree, but within more than noise_max_millipx */
     ROADPOSE_YAW_AMBIGUOUS = 7,      /* these tracks cannot tell a turn from straight travel, and nothing else does */
@@ -166,6 +167,7 @@ typedef struct {
     roadpose_sums_t sums;
     roadpose_factors_t factors;
     uint16_t bins[ROADPOSE_NOISE_BINS];
+    int32_t noise_q22;
     uint16_t agreeing; /* moving flows within three deviations that stream away from the focus */
 } roadpose_round_t;
 

@@ -15,6 +15,7 @@
 #define LAST_ROUNDS_TURNED 2u /* the focus has just been moved */
 #define BETTER_Q8 2048       /* a fit that began in a turn must cost this much less: 8 squared deviations */
 #define SIGNIFICANT_Q8 2048  /* below this chi-square (three degrees of freedom: 95 % quantile 7.8) no rotation is seen */
+#define OUTLIERS_Q8 8192     /* more where tracks disagree, times their share squared */
 #define START_NOISE_PERCENT 70
 #define TURN_MAX_Q24 838861  /* 1/20 rad between two frames */
 #define MICRO INT64_C(1000000)
@@ -130,17 +131,17 @@ static void excess_turn(const outcome_t *out, int32_t *turn_q28) {
 
 /* Shrinks the found rotation by what chance explains of it (James and Stein's estimator, positive part), and lets the
  * focus follow; an insignificant rotation leaves the fit without one. */
-static void choose(const roadpose_factors_t *factors, outcome_t *out) {
+static void choose(const roadpose_factors_t *factors, int64_t chance_q8, outcome_t *out) {
     int32_t turn_q28[3];
     int32_t focus_q28[2];
     excess_turn(out, turn_q28);
     const int64_t significance = roadpose_turn_significance(factors, turn_q28, out->motion.noise_q22);
     out->left_q16 = 65536;
     out->chosen = out->focus;
-    if (significance <= SIGNIFICANT_Q8) {
+    if (significance <= chance_q8) {
         return;
     }
-    out->left_q16 = (int32_t)(INT64_C(65536) * SIGNIFICANT_Q8 / significance);
+    out->left_q16 = (int32_t)(INT64_C(65536) * chance_q8 / significance);
     for (unsigned i = 0; i < 3; i++) {
         turn_q28[i] = (int32_t)-roadpose_floor_shift((int64_t)turn_q28[i] * out->left_q16, 16);
     }
@@ -164,12 +165,21 @@ static void yaw_direction(const int32_t *normal_q30, int32_t *c_q16) {
     c_q16[4] = 0;
 }
 
+/* Chi-square that chance may reach. Things that move by themselves do not scatter like noise: some of them always lie
+ * where a small rotation would bring them, so it grows with the share of moving tracks that disagree: share <= 1. */
+static int64_t chance_q8(const roadpose_heading_t *instance) {
+    const int64_t moving = instance->flows_moving;
+    const int64_t disagreeing = moving - instance->round.agreeing;
+    return SIGNIFICANT_Q8 + ((moving == 0) ? 0 : OUTLIERS_Q8 * disagreeing * disagreeing / (moving * moving));
+}
+
 /* What the free fit leaves open, and the choice. */
 static void judge(const roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
     const int32_t about_y_q16[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
     const roadpose_factors_t *factors = &instance->round.factors;
+    out->motion.noise_q22 = instance->round.noise_q22;
     const int32_t noise = out->motion.noise_q22;
-    choose(factors, out);
+    choose(factors, chance_q8(instance), out);
     out->free_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, along_q16, noise);
     out->rate_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, about_y_q16, noise);
 }
@@ -236,8 +246,10 @@ static bool agree_enough(const roadpose_heading_t *instance, const roadpose_yaw_
 }
 
 /* The gates that need the fits, in the order of the statuses. */
-static uint8_t fit_gate(const roadpose_heading_t *instance, bool rate_known, const outcome_t *out, int32_t sigma,
-                        const roadpose_yaw_t *yaw) {
+static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const outcome_t *out,
+                        int32_t sigma, const roadpose_yaw_t *yaw) {
+    const bool rate_known = motion->has_yaw_rate;
+    const bool moves = motion->has_speed; /* fast enough, or this frame would not have come here */
     const roadpose_heading_settings_t *s = &instance->settings;
     const int64_t rate = roadpose_abs(yaw->yaw_rate_urad_s);
     const int64_t unsure = yaw->yaw_rate_sigma_urad_s;
@@ -247,6 +259,9 @@ static uint8_t fit_gate(const roadpose_heading_t *instance, bool rate_known, con
     }
     if (!agree_enough(instance, yaw)) {
         return ROADPOSE_YAW_NO_FOCUS;
+    }
+    if (!moves && yaw->tracks_agreeing * 4u < yaw->tracks_used) {
+        return ROADPOSE_YAW_STANDING;
     }
     if (yaw->noise_millipx > s->noise_max_millipx) {
         return ROADPOSE_YAW_NOISY;
@@ -291,7 +306,7 @@ void roadpose_heading_estimate(roadpose_heading_t *instance, const roadpose_moti
     }
     report(instance, motion, normal, &out, yaw);
     const int32_t sigma = sigma_urad(&out, normal);
-    yaw->status = fit_gate(instance, motion->has_yaw_rate, &out, sigma, yaw);
+    yaw->status = fit_gate(instance, motion, &out, sigma, yaw);
     if (yaw->status == ROADPOSE_YAW_OK && normal_q30 == NULL) {
         yaw->status = ROADPOSE_YAW_NO_ROAD;
     }

@@ -9,7 +9,7 @@
 #define R_MIN_Q16 256 /* nearer to the focus than this a flow tells nothing: 2 px at a focal length of 500 px */
 #define NOISE_BINS ((unsigned)ROADPOSE_NOISE_BINS)
 #define FEW_FLOWS 64u /* a coarse round looks at no fewer */
-#define CUT_QUARTERS 13 /* Tukey's biweight ends at 13/4 standard deviations */
+#define CUT_QUARTERS 14 /* Tukey's biweight ends at 3.5 standard deviations */
 
 /* A motion, prepared for looking at many flows. */
 typedef struct {
@@ -162,8 +162,8 @@ static int32_t noise_of(const roadpose_heading_t *instance, const histogram_t *h
     return (int32_t)roadpose_clamp(noise, roadpose_noise_min_q22(instance), roadpose_noise_max_q22(instance));
 }
 
-/* Sums and agreement at *fit; returns the noise there. */
-static int32_t pass(roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
+/* Sums, agreement and noise at *fit. */
+static void pass(roadpose_heading_t *instance, const roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
     histogram_t histogram = histogram_of(instance, fit->noise_q22);
     const cut_t cut = cut_of(fit->noise_q22);
     const view_t view = view_of(&fit->motion, fit->noise_q22);
@@ -188,7 +188,7 @@ static int32_t pass(roadpose_heading_t *instance, const roadpose_fit_t *fit, uns
         roadpose_sums_add(&instance->round.sums, unknowns, j_q16, s.e_q22, weight);
     }
     instance->round.agreeing = (uint16_t)agreeing;
-    return noise_of(instance, &histogram, fit->noise_q22);
+    instance->round.noise_q22 = noise_of(instance, &histogram, fit->noise_q22);
 }
 
 /* A focus unknown is a sixteenth of the focus: its q28 is the focus in q24. */
@@ -206,10 +206,11 @@ static void step_turn(int32_t *turn_q24, int32_t x_q28) {
 
 bool roadpose_fit_round(roadpose_heading_t *instance, roadpose_fit_t *fit, unsigned unknowns, unsigned stride) {
     int32_t x_q28[ROADPOSE_UNKNOWNS_MOTION];
-    const int32_t noise_q22 = pass(instance, fit, unknowns, stride);
+    pass(instance, fit, unknowns, stride);
     if (!roadpose_factorise(&instance->round.sums, unknowns, &instance->round.factors)) {
         return false;
     }
+    const int32_t noise_q22 = instance->round.noise_q22;
     roadpose_solve(&instance->round.factors, x_q28);
     step_focus(&fit->motion, x_q28);
     if (unknowns == ROADPOSE_UNKNOWNS_FOCUS) {
@@ -233,7 +234,7 @@ bool roadpose_fit_rounds(roadpose_heading_t *instance, roadpose_fit_t *fit, unsi
     return told;
 }
 
-/* rho = (1 - (1 - u^2)^3) * cut^2 / 3 in noise^2: at most (13/4)^2 / 3 = 3.52 (q8: 901). */
+/* rho = (1 - (1 - u^2)^3) * cut^2 / 3 in noise^2: at most 3.5^2 / 3 = 4.08 (q8: 1045). */
 static int32_t cost_q8(int32_t off_q22, cut_t cut) {
     const int64_t rest_q12 = 4096 - (share_q24(off_q22, cut) >> 12);
     const int64_t cube_q12 = (rest_q12 * rest_q12 * rest_q12) >> 24;

@@ -23,7 +23,7 @@ bool roadpose_fit_rounds(roadpose_heading_t *instance, roadpose_fit_t *fit, unsi
 
 /* Robust cost (Tukey's) of a motion at a given noise, q8: about the sum of squared deviations, at most
  * ROADPOSE_COST_OUTLIER_Q8 for each flow. */
-#define ROADPOSE_COST_OUTLIER_Q8 901
+#define ROADPOSE_COST_OUTLIER_Q8 1045
 int64_t roadpose_fit_cost(const roadpose_heading_t *instance, const roadpose_expansion_t *motion, int32_t noise_q22);
 
 /* Limits of the noise: 0.08 px and 1.5 px, in q22. */

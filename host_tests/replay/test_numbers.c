@@ -145,7 +145,7 @@ static roadpose_pose_t full_pose(void) {
 static void test_a_line_with_a_pose(void) {
     const roadpose_pose_t pose = full_pose();
 
-    TEST_ASSERT_EQUAL_STRING("12,ok,4.999973,-20.000009,1.500123,,0.000057,-0.000057,5678,912,0.204,3.050,24.990\n",
+    TEST_ASSERT_EQUAL_STRING("12,ok,4.999973,-20.000009,1.500123,,0.000057,-0.000057,5678,912,0.204,3.050,24.990,,,,,,,,,\n",
                              csv_line(&pose));
 }
 
@@ -153,9 +153,9 @@ static void test_an_axis_that_was_not_observed_is_empty(void) {
     roadpose_pose_t pose = full_pose();
 
     pose.observed = ROADPOSE_OBSERVED_PITCH | ROADPOSE_OBSERVED_HEIGHT;
-    TEST_ASSERT_EQUAL_STRING("12,ok,4.999973,,1.500123,,0.000057,,5678,912,0.204,3.050,24.990\n", csv_line(&pose));
+    TEST_ASSERT_EQUAL_STRING("12,ok,4.999973,,1.500123,,0.000057,,5678,912,0.204,3.050,24.990,,,,,,,,,\n", csv_line(&pose));
     pose.observed = ROADPOSE_OBSERVED_ROLL;
-    TEST_ASSERT_EQUAL_STRING("12,ok,,-20.000009,,,,-0.000057,5678,912,0.204,3.050,24.990\n", csv_line(&pose));
+    TEST_ASSERT_EQUAL_STRING("12,ok,,-20.000009,,,,-0.000057,5678,912,0.204,3.050,24.990,,,,,,,,,\n", csv_line(&pose));
 }
 
 static void test_without_a_pose_all_numbers_are_empty(void) {

@@ -198,7 +198,7 @@ static void test_comments_in_a_frame_header(void) {
     planar_recording_add_raw("drive", "000001.pgm", "P5# one\n# two\n320 # three\n #four\n\t240\r\n#five\n65535\n", 0,
                              2 * PLANAR_SAMPLES);
     run = program_run(scratch_path("drive"), NULL);
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("0,no_disparity,,,,,,,,,,,\n1,no_disparity,,,,,,,,,,,\n", line_of(run.output, 1),
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("0,no_disparity,,,,,,,,,,,,,,,,,,,,\n1,no_disparity,,,,,,,,,,,,,,,,,,,,\n", line_of(run.output, 1),
                                      run.command);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, run.status, run.command);
     program_forget(&run);
@@ -228,7 +228,7 @@ static void play_blank_frame(const char *recording, unsigned width, unsigned hei
     planar_recording_add_raw(recording, "000000.pgm", header, 0, 2 * width * height);
     run = program_run(scratch_path(recording), NULL);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, run.status, run.errors);
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("0,no_disparity,,,,,,,,,,,\n", line_of(run.output, 1), run.command);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("0,no_disparity,,,,,,,,,,,,,,,,,,,,\n", line_of(run.output, 1), run.command);
     program_forget(&run);
 }
 

@@ -27,7 +27,9 @@ static void print_number(FILE *csv, bool is_known, int64_t scaled, int places) {
 
 void csv_print_header(FILE *csv) {
     (void)fputs("frame,status,pitch_deg,roll_deg,height_m,yaw_deg,paper_pitch_deg,paper_roll_deg,"
-                "road_points,support_permille,residual_px,range_near_m,range_far_m\n",
+                "road_points,support_permille,residual_px,range_near_m,range_far_m,"
+                "yaw_status,yaw_sigma_deg,running_yaw_deg,running_spread_deg,running_frames,pitch_motion_deg,"
+                "pitch_difference_deg,yaw_rate_deg_s,tracks_agreeing\n",
                 csv);
 }
 
@@ -39,7 +41,25 @@ static void print_support(FILE *csv, bool is_known, const roadpose_pose_t *pose)
     print_number(csv, is_known, pose->range_far_mm, 3);
 }
 
-void csv_print_pose(FILE *csv, uint32_t frame, const roadpose_pose_t *pose) {
+/* pitch of the road plane = pitch of motion + pitch difference */
+static void print_yaw(FILE *csv, const csv_yaw_t *yaw) {
+    static const csv_yaw_t nothing;
+    const csv_yaw_t *y = yaw != NULL ? yaw : &nothing;
+    const bool is_yaw = yaw != NULL && y->frame.status == ROADPOSE_YAW_OK;
+    const bool is_running = y->running.count > 0;
+
+    (void)fprintf(csv, ",%s", yaw != NULL ? roadpose_yaw_status_word(y->frame.status) : "");
+    print_number(csv, is_yaw, microdegrees(y->frame.sigma_urad), 6);
+    print_number(csv, is_running, microdegrees(y->running.yaw_urad), 6);
+    print_number(csv, is_running, microdegrees(y->running.spread_urad), 6);
+    print_number(csv, yaw != NULL, y->running.count, 0);
+    print_number(csv, is_yaw, microdegrees(y->frame.pitch_motion_urad), 6);
+    print_number(csv, is_yaw, microdegrees(y->frame.pitch_difference_urad), 6);
+    print_number(csv, y->frame.tracks_agreeing > 0, microdegrees(y->frame.yaw_rate_urad_s), 6);
+    print_number(csv, yaw != NULL, y->frame.tracks_agreeing, 0);
+}
+
+void csv_print_frame(FILE *csv, uint32_t frame, const roadpose_pose_t *pose, const csv_yaw_t *yaw) {
     const bool is_pose = pose->status == ROADPOSE_STATUS_OK;
     const bool has_pitch = is_pose && (pose->observed & ROADPOSE_OBSERVED_PITCH) != 0;
     const bool has_roll = is_pose && (pose->observed & ROADPOSE_OBSERVED_ROLL) != 0;
@@ -49,9 +69,15 @@ void csv_print_pose(FILE *csv, uint32_t frame, const roadpose_pose_t *pose) {
     print_number(csv, has_pitch, microdegrees(pose->pitch_urad), 6);
     print_number(csv, has_roll, microdegrees(pose->roll_urad), 6);
     print_number(csv, has_height, pose->height_um, 6);
-    print_number(csv, false, 0, 6); /* yaw: a plane says nothing about it */
+    print_number(csv, yaw != NULL && yaw->frame.status == ROADPOSE_YAW_OK,
+                 yaw != NULL ? microdegrees(yaw->frame.yaw_urad) : 0, 6);
     print_number(csv, has_pitch, microdegrees(pose->paper_pitch_urad), 6);
     print_number(csv, has_roll, microdegrees(pose->paper_roll_urad), 6);
     print_support(csv, is_pose, pose);
+    print_yaw(csv, yaw);
     (void)fputc('\n', csv);
+}
+
+void csv_print_pose(FILE *csv, uint32_t frame, const roadpose_pose_t *pose) {
+    csv_print_frame(csv, frame, pose, NULL);
 }

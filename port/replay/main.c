@@ -7,6 +7,7 @@
 #include "can_bus.h"
 #include "csv.h"
 #include "fault.h"
+#include "motion.h"
 #include "options.h"
 #include "pace.h"
 #include "pgm.h"
@@ -22,6 +23,7 @@ struct roadpose_camera_context {
     bool is_lent;                                                  /* to the port */
     bool prints;                                                   /* the poses, on standard output */
     can_bus_t can;
+    motion_t motion;
 };
 
 typedef struct {
@@ -41,10 +43,15 @@ static void take_back(roadpose_camera_context_t *camera, const roadpose_frame_t 
 
 static void print_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uint64_t time_us,
                        const roadpose_pose_t *pose) {
+    const bool has_yaw = motion_estimate(&camera->motion, pose);
+    const csv_yaw_t yaw = {camera->motion.yaw, camera->motion.running};
+
     (void)time_us;
     if (camera->prints)
-        csv_print_pose(stdout, frame_id, pose);
+        csv_print_frame(stdout, frame_id, pose, has_yaw ? &yaw : NULL);
     can_bus_pose(&camera->can, pose);
+    if (has_yaw)
+        can_bus_yaw(&camera->can, yaw.frame.yaw_urad, yaw.frame.status);
 }
 
 static void rescale(uint8_t *samples, const rig_file_t *rig_file) {
@@ -113,7 +120,8 @@ static int play(replay_t *replay) {
         csv_print_header(stdout);
     for (index = 0; index < count; index++) {
         pace_frame(&pace);
-        if (!recording_frame_path(&replay->recording, index, path) || !expose(replay, index, path) ||
+        if (!recording_frame_path(&replay->recording, index, path) ||
+            !motion_read(&replay->camera.motion, &replay->recording, index) || !expose(replay, index, path) ||
             !work_off(replay, path))
             return EXIT_BAD_RECORDING;
         if (fflush(stdout) != 0) {
@@ -134,7 +142,8 @@ static bool set_up(replay_t *replay) {
 
     if (!join_path(path, replay->options.recording, "rig.yml") || !rig_file_read(&replay->rig_file, path))
         return false;
-    if (!recording_open(&replay->recording, replay->options.recording))
+    if (!recording_open(&replay->recording, replay->options.recording) ||
+        !motion_open(&replay->camera.motion, replay->options.recording, &replay->recording, &replay->rig_file))
         return false;
     result =
         roadpose_init(&replay->estimator, &replay->rig_file.rig, &replay->rig_file.format, &replay->options.settings);
@@ -167,6 +176,7 @@ int main(int count, char *arguments[]) {
     }
     if (set_up(&replay))
         status = play_on_bus(&replay);
+    motion_close(&replay.camera.motion);
     recording_close(&replay.recording);
     return status;
 }

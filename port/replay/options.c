@@ -11,7 +11,8 @@
 
 static const char help_text[] =
     "Usage: roadpose-replay [options] RECORDING\n"
-    "Plays a recording of disparity maps and prints pitch, roll and height over the road, one CSV line a frame.\n"
+    "Plays a recording of disparity maps and prints pitch, roll and height over the road, one CSV line a frame; and yaw\n"
+    "where it has tracks/*.csv, or left/*.pgm for every frame.\n"
     "\n"
     "  --method 1|2       1: road profile, roll taken as zero; 2: ground plane (default)\n"
     "  --no-refine        the method alone, without least squares on the road points after it\n"
@@ -30,7 +31,8 @@ static const char help_text[] =
     "  --help             this text\n"
     "\n"
     "RECORDING is a folder with rig.yml and disparity/*.pgm. pitch + = nose down, roll + = right side down, degrees;\n"
-    "height of the left camera in metres; status ok, or why there is no pose. An empty field was not observed.\n"
+    "height of the left camera in metres; yaw + = camera looks left of the direction of travel; status and yaw_status ok,\n"
+    "or why there is no pose or yaw. An empty field was not observed.\n"
     "Exit status: 0 played to the end, 1 output cannot be written, 2 bad arguments, 3 bad recording.\n";
 
 typedef enum {

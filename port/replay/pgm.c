@@ -60,9 +60,9 @@ static bool read_header(header_t *header, FILE *file, const char *path) {
     return true;
 }
 
-static bool check_header(const header_t *header, uint16_t width_px, uint16_t height_px, const char *path) {
-    if (header->maxval != 65535)
-        return fault(path, "maxval is %ld, not 65535", header->maxval);
+static bool check_header(const header_t *header, long maxval, uint16_t width_px, uint16_t height_px, const char *path) {
+    if (header->maxval != maxval)
+        return fault(path, "maxval is %ld, not %ld", header->maxval, maxval);
     if (header->width != width_px || header->height != height_px)
         return fault(path, "the frame is %ld x %ld, the rig %u x %u", header->width, header->height, (unsigned)width_px,
                      (unsigned)height_px);
@@ -79,7 +79,9 @@ static bool read_samples(uint8_t *samples, size_t bytes, FILE *file, const char 
     return true;
 }
 
-static bool read_image(uint8_t *samples, uint16_t width_px, uint16_t height_px, FILE *file, const char *path) {
+static bool read_image(uint8_t *samples, long maxval, uint16_t width_px, uint16_t height_px, FILE *file,
+                       const char *path) {
+    const size_t bytes_per_sample = maxval > 255 ? 2u : 1u;
     header_t header;
     const int first = getc(file);
 
@@ -88,20 +90,28 @@ static bool read_image(uint8_t *samples, uint16_t width_px, uint16_t height_px, 
     if (first == EOF)
         return fault(path, "is empty");
     (void)ungetc(first, file);
-    if (!read_header(&header, file, path) || !check_header(&header, width_px, height_px, path))
+    if (!read_header(&header, file, path) || !check_header(&header, maxval, width_px, height_px, path))
         return false;
-    if (!read_samples(samples, (size_t)width_px * height_px * 2u, file, path))
+    if (!read_samples(samples, (size_t)width_px * height_px * bytes_per_sample, file, path))
         return false;
     return !ferror(file) || fault(path, "cannot be read: %s", strerror(errno));
 }
 
-bool pgm_read(uint8_t *samples, uint16_t width_px, uint16_t height_px, const char *path) {
+static bool read_file(uint8_t *samples, long maxval, uint16_t width_px, uint16_t height_px, const char *path) {
     FILE *file = fopen(path, "rb");
     bool is_read;
 
     if (file == NULL)
         return fault(path, "cannot be read: %s", strerror(errno));
-    is_read = read_image(samples, width_px, height_px, file, path);
+    is_read = read_image(samples, maxval, width_px, height_px, file, path);
     (void)fclose(file);
     return is_read;
+}
+
+bool pgm_read(uint8_t *samples, uint16_t width_px, uint16_t height_px, const char *path) {
+    return read_file(samples, 65535, width_px, height_px, path);
+}
+
+bool pgm_read_grey(uint8_t *samples, uint16_t width_px, uint16_t height_px, const char *path) {
+    return read_file(samples, 255, width_px, height_px, path);
 }

@@ -166,7 +166,7 @@ static void test_without_a_pose_all_numbers_are_empty(void) {
 
     for (uint8_t status = 1; status < ROADPOSE_STATUS_COUNT; status++) {
         pose.status = status;
-        (void)snprintf(line, sizeof line, "12,%s,,,,,,,,,,,\n", words[status - 1]);
+        (void)snprintf(line, sizeof line, "12,%s,,,,,,,,,,,,,,,,,,,,\n", words[status - 1]);
         TEST_ASSERT_EQUAL_STRING(line, csv_line(&pose));
     }
 }

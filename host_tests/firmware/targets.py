@@ -18,6 +18,11 @@ class Machine:
     emulator: tuple  # command; empty: runs by itself
     semihosting: bool
 
+    @property
+    def tools(self):
+        """How the names of nm, size and objdump begin."""
+        return self.compiler[:-len("gcc")] if self.compiler.endswith("-gcc") else ""
+
 
 def board(name, machine):
     return Machine(name, name, "arm-none-eabi-gcc", ("qemu-system-arm", "-M", machine), True)
@@ -60,19 +65,20 @@ def run(command, **options):
     """Runs a command; its output if it succeeds, a Failure that shows the command if not."""
     done = subprocess.run([str(word) for word in command], capture_output=True, timeout=600, check=False, **options)
     if done.returncode:
-        text = (done.stdout + done.stderr).decode(errors="replace")[-3000:]
+        text = (done.stdout + done.stderr).decode(errors="replace")[-1500:]
         raise Failure(f"exit status {done.returncode} from: {' '.join(map(str, command))}\n{text}")
     return done
 
 
-def build(target, source, folder, programs, flags=""):
+def build(target, source, folder, programs):
     """Configures and builds in a folder of its own, which is kept: a second run builds only what changed."""
     machine = target.machine
+    flags = "" if "clang" in machine.compiler else " -fcallgraph-info=su"  # for budgets.py, in the same folders
     if not shutil.which(machine.compiler):
         raise Failure(f"{machine.compiler} is missing")
     where = pathlib.Path(folder, target.name.replace(" ", ""))
     command = ["cmake", "-S", source, "-B", where, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-               f"-DCMAKE_C_FLAGS_RELEASE={target.level} {flags}".rstrip(), f"-DCMAKE_C_COMPILER={machine.compiler}"]
+               f"-DCMAKE_C_FLAGS_RELEASE={target.level}{flags}", f"-DCMAKE_C_COMPILER={machine.compiler}"]
     if machine.toolchain:
         command.append(f"-DCMAKE_TOOLCHAIN_FILE={source}/cmake/{machine.toolchain}.cmake")
     run(command)

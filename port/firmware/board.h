@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-/* Memory of the library (state, ports, stack), as large as the product gives it; and the memory that the camera's DMA
+/* Memory of the library (state and ports), as large as the product gives it; and the memory that the camera's DMA
  * writes to. Where the board's linker script does not tell them apart, both are ordinary memory. */
 #ifdef ROADPOSE_BOARD_SECTIONS
 #define BOARD_LIBRARY_RAM __attribute__((section(".library_ram")))

@@ -1,18 +1,17 @@
 #include "player.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 
 #include "board.h"
 #include "candump.h"
 #include "csv.h"
 #include "fault.h"
+#include "motion.h"
+#include "numbered_recording.h"
 #include "pgm.h"
 #include "rig_file.h"
 #include "roadpose/camera_port.h"
 #include "roadpose/can.h"
-
-#define NAME_BYTES 32
 
 /* The camera: one buffer that its DMA fills. */
 struct roadpose_camera_context {
@@ -40,6 +39,8 @@ static BOARD_EXTERNAL_RAM uint8_t samples[2 * ROADPOSE_MAX_WIDTH * ROADPOSE_MAX_
 
 /* The rest of the emulated world. */
 static rig_file_t rig_file;
+static recording_t recording;
+static motion_t motion;
 static struct roadpose_can_context can;
 static cost_t cost;
 
@@ -92,28 +93,36 @@ static bool work_off(const char *path) {
     return fault(path, "the estimator refuses the frame");
 }
 
-/* The CAN cycle that follows the frame. */
-static void tell_bus(uint64_t time_us) {
+/* The CAN cycle that follows the frame. yaw NULL: the recording has no motion. */
+static void tell_bus(const csv_yaw_t *yaw, uint64_t time_us) {
     roadpose_can_estimate_t estimate;
     roadpose_camera_counters_t counters;
 
     roadpose_camera_read_counters(&component.port, &counters);
     roadpose_can_estimate(&estimate, &component.camera.pose);
+    if (yaw != NULL)
+        roadpose_can_estimate_yaw(&estimate, yaw->frame.yaw_urad, yaw->frame.status);
     roadpose_can_transmit_publish(&component.transmit, &estimate, counters.frames_displaced, time_us);
     can.now_us = time_us;
     (void)roadpose_can_transmit_cycle(&component.transmit, time_us); /* this bus takes everything */
 }
 
-static bool play_frame(const char *folder, uint32_t index) {
+static void tell(uint32_t index, uint64_t time_us) {
+    const bool has_yaw = motion_estimate(&motion, &component.camera.pose);
+    const csv_yaw_t yaw = {motion.yaw, motion.running};
+
+    csv_print_frame(stdout, index, &component.camera.pose, has_yaw ? &yaw : NULL);
+    tell_bus(has_yaw ? &yaw : NULL, time_us);
+}
+
+static bool play_frame(uint32_t index) {
     const uint64_t time_us = index * UINT64_C(1000000000) / (uint64_t)rig_file.rate_millihz;
-    char name[NAME_BYTES];
     static char path[PATH_BYTES]; /* too large for the stack of an ECU */
 
-    (void)snprintf(name, sizeof name, "disparity/%06" PRIu32 ".pgm", index);
-    if (!join_path(path, folder, name) || !expose(index, time_us, path) || !work_off(path))
+    if (!recording_frame_path(&recording, index, path) || !motion_read(&motion, &recording, index) ||
+        !expose(index, time_us, path) || !work_off(path))
         return false;
-    csv_print_pose(stdout, index, &component.camera.pose);
-    tell_bus(time_us);
+    tell(index, time_us);
     return fflush(stdout) == 0;
 }
 
@@ -131,7 +140,9 @@ static bool init_component(const player_options_t *options) {
 static bool set_up(const player_options_t *options) {
     static char path[PATH_BYTES];
 
-    if (!join_path(path, options->folder, "rig.yml") || !rig_file_read(&rig_file, path))
+    if (!join_path(path, options->folder, "rig.yml") || !rig_file_read(&rig_file, path) ||
+        !numbered_recording_open(&recording, options->folder, options->frames) ||
+        !motion_open(&motion, options->folder, &recording, &rig_file))
         return false;
     if (roadpose_state_bytes() != ROADPOSE_STATE_BYTES)
         return fault(NULL, "the library was built with other limits");
@@ -148,7 +159,7 @@ bool player_play(const player_options_t *options) {
         return fault(options->can_log, "cannot be written");
     csv_print_header(stdout);
     for (index = 0; is_good && index < options->frames; index++)
-        is_good = play_frame(options->folder, index);
+        is_good = play_frame(index);
     return roadpose_candump_close(&can.log) && is_good;
 }
 

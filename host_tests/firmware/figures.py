@@ -1,0 +1,181 @@
+"""Measures what the library costs on each machine: tables of numbers."""
+import dataclasses
+import pathlib
+import re
+import subprocess
+import tempfile
+
+import archive
+import call_stack
+import targets
+
+MACHINES = ["cortex-m3", "cortex-m4", "cortex-m7", "cortex-m33", "riscv32"]
+PROFILES = {"default": "", "small": "_small"}
+RECORDINGS = ["roll-sweep", "level", "traffic", "no-road"]
+PIXELS = 640 * 480
+
+# Objects whose size is the memory that an integrator gives; "of which" are members of the state.
+OBJECTS = {"state": "roadpose_t", "of which u-disparity": "roadpose_u_disparity_t",
+           "of which v-disparity": "roadpose_v_disparity_t", "of which free map": "roadpose_free_map_t",
+           "of which points": "roadpose_points_t", "camera port": "roadpose_camera_port_t",
+           "CAN sender": "roadpose_can_transmit_t", "CAN receiver": "roadpose_can_receive_t",
+           "yaw (heading)": "roadpose_heading_t"}
+
+# What a program takes in that calls everything of these headers.
+PARTS = {"pose": ["roadpose", "disparity"], "pose and yaw": ["roadpose", "disparity", "heading"]}
+
+
+@dataclasses.dataclass
+class Table:
+    title: str
+    note: str
+    columns: list
+    rows: dict  # label -> list of numbers, None where there is none
+
+
+class Builds:
+    """Builds of all machines at -Os and -O2."""
+
+    def __init__(self, source, folder):
+        self.source = pathlib.Path(source)
+        found = [target for target in targets.all_targets()
+                 if target.machine.name in MACHINES and target.level in ("-Os", "-O2")]
+        self.targets = {(target.machine.name, target.level): target for target in found}
+        programs = ["roadpose-firmware", "roadpose-firmware-small"]
+        self.where = {key: targets.build(target, source, folder, programs) for key, target in self.targets.items()}
+
+    def library(self, machine, level, name):
+        return archive.Archive(self.where[machine, level] / name, self.targets[machine, level].machine.tools)
+
+    def compiler(self, machine):
+        return self.targets[machine, "-Os"].machine.compiler
+
+    def header_names(self, header):
+        """Everything that looks like a call in a header."""
+        text = (self.source / f"include/roadpose/{header}.h").read_text(encoding="utf-8")
+        return set(re.findall(r"\b(roadpose_\w+)\(", text))
+
+
+def code_sizes(builds):
+    rows = {}
+    for machine in MACHINES:
+        for profile, suffix in PROFILES.items():
+            pair = [builds.library(machine, level, f"lib/libroadpose{suffix}.a") for level in ("-Os", "-O2")]
+            for part, headers in PARTS.items():
+                names = set().union(*map(builds.header_names, headers))
+                rows[f"{machine}, {profile}: {part}"] = sizes_of(pair, [library.members(names) for library in pair])
+            rows[f"{machine}, {profile}: whole library"] = sizes_of(pair, [None, None])
+        for label, name in {"camera port": "port/camera/libroadpose_camera.a",
+                            "CAN and E2E": "port/can/libroadpose_can.a"}.items():
+            pair = [builds.library(machine, level, name) for level in ("-Os", "-O2")]
+            rows[f"{machine}: {label}"] = sizes_of(pair, [None, None])
+    return Table("Code and constants", "Bytes. A program that calls only some parts takes in only those.",
+                 ["`.text` -Os", "`.rodata` -Os", "sum -Os", "sum -O2"], rows)
+
+
+def sizes_of(pair, members):
+    small, fast = pair
+    text, constants = small.bytes_of(archive.CODE, members[0]), small.bytes_of(archive.CONSTANTS, members[0])
+    return [text, constants, text + constants,
+            fast.bytes_of(archive.CODE, members[1]) + fast.bytes_of(archive.CONSTANTS, members[1])]
+
+
+def core_flags(machine):
+    if machine == "riscv32":
+        return ["-march=rv32imac", "-mabi=ilp32", "--specs=picolibc.specs"]
+    return ["-mthumb", f"-mcpu={machine}"]
+
+
+def object_sizes(builds, machine, options):
+    """Sizes as the machine's compiler has them."""
+    headers = "".join(f'#include "roadpose/{name}.h"\n' for name in ["camera_port", "can", "heading"])
+    source = headers + "".join(f"char size_of_{kind}[sizeof({kind})];\n" for kind in OBJECTS.values())
+    with tempfile.TemporaryDirectory() as folder:
+        target = pathlib.Path(folder, "sizes.o")
+        command = [builds.compiler(machine), "-std=c99", *core_flags(machine), *options, f"-I{builds.source}/include", "-xc", "-c", "-",
+                   "-o", str(target)]
+        subprocess.run(command, input=source, text=True, check=True, capture_output=True)
+        listing = archive.output_of(f"{builds.targets[machine, '-Os'].machine.tools}nm", "-P", "-t", "d", target)
+    return dict((name, int(size)) for name, size in re.findall(r"^size_of_(\w+) \S \d+ (\d+)", listing, re.MULTILINE))
+
+
+def memory(builds):
+    """Bytes of each object, on each machine and in each profile."""
+    rows = {}
+    for machine in MACHINES:
+        for profile, options in {"default": [], "small": ["-DROADPOSE_SMALL_PROFILE=1"]}.items():
+            sizes = object_sizes(builds, machine, options)
+            rows[f"{machine}, {profile}"] = [sizes[kind] for kind in OBJECTS.values()]
+    return Table("Memory", "Bytes, all of it the caller's; the library has no `.data` and no `.bss`.", list(OBJECTS), rows)
+
+
+def graph_of(builds, machine, level, suffix):
+    """The call graph of the core and its ports, with the run-time functions that they are linked with."""
+    where, tools = builds.where[machine, level], builds.targets[machine, level].machine.tools
+    folders = [f"lib/CMakeFiles/roadpose{suffix}.dir", f"{'port/firmware' if suffix else 'port/camera'}/CMakeFiles/roadpose_camera{suffix}.dir",
+               "port/can/CMakeFiles"]
+    graph = call_stack.read_graph([path for folder in folders for path in sorted((where / folder).rglob("*.ci"))])
+    libraries = [where / f"lib/libroadpose{suffix}.a", where / "port/can/libroadpose_can.a"]
+    with tempfile.TemporaryDirectory() as folder:
+        program = f"{folder}/whole.elf"
+        targets.run([builds.compiler(machine), *core_flags(machine), "-nostartfiles", "-Wl,--entry=0,--no-gc-sections,--whole-archive", *libraries,
+                     "-Wl,--no-whole-archive", "-o", program])
+        call_stack.add_disassembly(graph, f"{tools}objdump", program)
+    return graph
+
+
+def public_functions(builds):
+    headers = [path.stem for path in sorted((builds.source / "include/roadpose").glob("*.h"))]
+    return set().union(*map(builds.header_names, headers))
+
+
+def stacks(builds):
+    """The larger of -Os and -O2 and of both profiles; a graph that does not know a function that a library calls is a fault."""
+    worst, with_callbacks = {}, set()
+    for machine, level in builds.where:
+        for suffix in PROFILES.values():
+            graph = graph_of(builds, machine, level, suffix)
+            missing = builds.library(machine, level, f"lib/libroadpose{suffix}.a").undefined() - set(graph.frame)
+            if missing:
+                raise targets.Failure(f"{machine} {level}: the stack of {sorted(missing)} is not known")
+            for name in public_functions(builds) & set(graph.frame):
+                key = (name, machine)
+                worst[key] = max(worst.get(key, 0), graph.worst(name))
+                if call_stack.INDIRECT in graph.reached(name):
+                    with_callbacks.add(name)
+    names = sorted({name for name, _ in worst})
+    rows = {f"`{name}`" + (" + callback" if name in with_callbacks else ""): [worst.get((name, machine)) for machine in MACHINES]
+            for name in names}
+    return Table("Worst stack", "Bytes of each public call with all that it calls, the larger of -Os and -O2 and of both profiles: the "
+                 "compiler's figure of each function, followed through the call graph. No recursion, no stack of unknown size. "
+                 "\"+ callback\": and what the platform's function needs.", MACHINES, rows)
+
+
+def frame_count(folder):
+    return len(list((folder / "disparity").glob("*.pgm")))
+
+
+def executed(builds, fixtures, machine, profile, recording):
+    """Mean instructions a frame and a pixel, worst frame, worst slice."""
+    folder = pathlib.Path(fixtures, recording)
+    target = builds.targets[machine, "-O2"]
+    program = "roadpose-firmware" + PROFILES[profile].replace("_", "-")
+    with tempfile.TemporaryDirectory() as scratch:
+        command = targets.command_line(target, builds.where[machine, "-O2"], program,
+                                       [folder, frame_count(folder), f"{scratch}/can.log", "instructions"], counting=True)
+        done = targets.run(command)
+    said = re.search(rb"frames (\d+) instructions (\d+) worst_frame (\d+) worst_slice (\d+)", done.stdout + done.stderr)
+    frames, total, worst_frame, worst_slice = map(int, said.groups())
+    return [total // frames, round(total / frames / PIXELS, 2), worst_frame, worst_slice]
+
+
+def instructions(builds, fixtures):
+    rows = {f"{machine}, {profile}: {recording}": executed(builds, fixtures, machine, profile, recording)
+            for machine in MACHINES for profile in PROFILES for recording in RECORDINGS}
+    return Table("Executed instructions", "At -O2, counted by the emulator; 640 x 480, the camera port and the whole pipeline. A slice is one call of "
+                 "`roadpose_camera_task(port, 1)`.", ["mean a frame", "a pixel", "worst frame", "worst slice"], rows)
+
+
+def measure(source, folder, fixtures):
+    builds = Builds(source, folder)
+    return [code_sizes(builds), memory(builds), stacks(builds), instructions(builds, fixtures)]

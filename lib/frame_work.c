@@ -127,6 +127,17 @@ static void accept(roadpose_t *instance) {
     roadpose_enter(instance, PHASE_DONE);
 }
 
+/* The last step moves the plane by far less than the band, so its look stands for the assessment; unless the plane
+ * followed a kerb: then the one within the noise band is the road's, and is looked at anew. */
+static void refine_done(roadpose_t *instance) {
+    if (roadpose_turned_too_far(&instance->noise_plane, &instance->plane)) {
+        instance->plane = instance->noise_plane;
+        roadpose_enter(instance, PHASE_ASSESS);
+    } else {
+        accept(instance);
+    }
+}
+
 static void refine_slice(roadpose_t *instance) {
     if (!look_at_points(instance, instance->round)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
@@ -142,15 +153,18 @@ static void refine_slice(roadpose_t *instance) {
     instance->cursor = 0;
     instance->round++;
     if (instance->round == ROADPOSE_REFINE_ROUNDS) {
-        accept(instance); /* the last step moved the plane by far less than the band: its look stands for it */
-    } else {
-        roadpose_levels_judge(&instance->moments, &instance->settings);
+        refine_done(instance);
+        return;
+    }
+    roadpose_levels_judge(&instance->moments, &instance->settings);
+    if (instance->round == ROADPOSE_UNEVEN_ROUND) {
+        instance->noise_plane = instance->plane;
     }
 }
 
-/* A plane that was not refined is looked at once, within the widest band. */
 static void assess_slice(roadpose_t *instance) {
-    if (!look_at_points(instance, 0)) {
+    /* a plane that was not refined is held against the widest band */
+    if (!look_at_points(instance, instance->settings.refine ? ROADPOSE_LOOK_NOISE : ROADPOSE_LOOK_WIDE)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else if (instance->cursor == (uint16_t)instance->grid.rows) {
         accept(instance);
@@ -188,7 +202,7 @@ uint32_t roadpose_work_slices_max(void) {
     const uint32_t row_pass = (ROADPOSE_MAX_GRID_ROWS + rows_a_slice - 1u) / rows_a_slice;
     const uint32_t columns_a_slice = ROADPOSE_SLICE_SAMPLES / ROADPOSE_MAX_DISPARITY;
     const uint32_t column_pass = (ROADPOSE_MAX_GRID_COLUMNS + columns_a_slice - 1u) / columns_a_slice;
-    /* clear and free map; u- and v-disparity and the refinement. A narrower image than the limit has fewer columns and
-     * so more rows a slice: never more slices. */
-    return 2u * column_pass + (2u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
+    /* clear and free map; u- and v-disparity, the refinement and one look more. A narrower image than the limit has
+     * fewer columns and so more rows a slice: never more slices. */
+    return 2u * column_pass + (3u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
 }

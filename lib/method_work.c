@@ -185,10 +185,14 @@ void roadpose_method_slice(roadpose_t *instance) {
     }
 }
 
+static uint32_t slices_of(uint32_t work, uint32_t a_slice) {
+    return (work + a_slice - 1u) / a_slice;
+}
+
 uint32_t roadpose_method_slices_max(void) {
     const uint32_t profile = ROADPOSE_PROFILE_HYPOTHESES + PROFILE_FIT_ROUNDS;
-    const uint32_t sort = 2u * (ROADPOSE_MAX_POINTS / ROADPOSE_SLICE_SAMPLES + 1u) + 1u;
-    const uint32_t cloud = sort + ROADPOSE_PAIR_TRIES / PAIR_TRIES_A_SLICE + ROADPOSE_SLOPE_HYPOTHESES + 1u +
+    const uint32_t sort = 2u * slices_of(ROADPOSE_MAX_POINTS, ROADPOSE_SLICE_SAMPLES) + 1u;
+    const uint32_t cloud = sort + slices_of(ROADPOSE_PAIR_TRIES, PAIR_TRIES_A_SLICE) + ROADPOSE_SLOPE_HYPOTHESES + 1u +
                            ROADPOSE_INTERCEPT_HYPOTHESES + INTERCEPT_FIT_ROUNDS;
     return (profile > cloud) ? profile : cloud;
 }

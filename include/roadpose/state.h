@@ -121,6 +121,7 @@ typedef struct {
     int32_t slope_q16;  /* Method 2: grid rows per grid column along a disparity level */
     bool roll_observed;
     roadpose_plane_t plane;
+    roadpose_plane_t noise_plane; /* before the rounds that follow the uneven road */
     roadpose_moments_t moments;
     uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */
     roadpose_free_map_t free_map;

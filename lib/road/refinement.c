@@ -9,11 +9,13 @@
 #include "road/ground_plane.h"
 
 /* Wider first: the method before is right to some tenths of a degree. Q8 pixels; then the setting. */
-#define FIRST_ROUNDS 3
+#define FIRST_ROUNDS 3u
 static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 
-/* From this round on the band widens by the unevenness of the road. Before, it would let a speed bump in. */
-#define UNEVEN_ROUND 5
+/* How far the uneven rounds may turn the plane about the direction of travel, tan(roll) in Q16: 0.005, or 0.29 degrees.
+ * On crowned streets it was up to 0.24 degrees, on flat ones 0.01. A kerb within the corridor, 6 to 10 cm high on one
+ * side, would turn it by 0.6 to 1.5 degrees. */
+#define UNEVEN_TURN_MAX_Q16 328
 
 /* The mean residual of a distance may be this share of the noise band: the mean of many points is that much better
  * known than one point. Without it the plane creeps up the foot of a speed bump. */
@@ -23,7 +25,6 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
  * enough for the last rounds, which look at all. */
 #define POINTS_PLENTY 4096u
 #define FIRST_ROW_STEP 8u
-#define LAST_SPARSE_ROUND 4u
 
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
 #define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
@@ -44,14 +45,16 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 
 static int32_t noise_band_q8(uint8_t round, const roadpose_settings_t *settings) {
     const int32_t last = settings->noise_millipx * 256 / 1000;
-    if (round >= FIRST_ROUNDS || FIRST_BANDS_Q8[round] < last) {
-        return last;
-    }
-    return FIRST_BANDS_Q8[round];
+    const unsigned first = (round == ROADPOSE_LOOK_WIDE) ? 0u : round;
+    return (first < FIRST_ROUNDS && FIRST_BANDS_Q8[first] > last) ? FIRST_BANDS_Q8[first] : last;
+}
+
+static bool is_uneven(uint8_t round) {
+    return round >= ROADPOSE_UNEVEN_ROUND && round < ROADPOSE_REFINE_ROUNDS;
 }
 
 uint16_t roadpose_refine_row_step(uint8_t round, uint16_t points) {
-    return (round <= LAST_SPARSE_ROUND && points >= POINTS_PLENTY) ? FIRST_ROW_STEP : 1u;
+    return (round < ROADPOSE_UNEVEN_ROUND && points >= POINTS_PLENTY) ? FIRST_ROW_STEP : 1u;
 }
 
 /* A road point's X in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
@@ -78,9 +81,9 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     /* unevenness / height = unevenness * k / B; <= 200 000 um * 2^28 / 20 000: the ratio is clamped to 1 */
     const int64_t share = (int64_t)settings->unevenness_mm * 1000 * k / grid->baseline_um;
     rule->unevenness_q16 =
-        (round < UNEVEN_ROUND) ? 0u : (uint32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535);
+        is_uneven(round) ? (uint32_t)roadpose_clamp(roadpose_floor_shift(share, 8), 0, 65535) : 0u;
     /* The corridor moves with the plane: weigh at the start, and when all rows come in. */
-    rule->mark_corridor = round == 0u || round == LAST_SPARSE_ROUND + 1u;
+    rule->mark_corridor = round == 0u || round == ROADPOSE_UNEVEN_ROUND || round >= ROADPOSE_REFINE_ROUNDS;
     return true;
 }
 
@@ -299,4 +302,15 @@ bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *p
     plane->b_q24 = roadpose_clamp32(plane->b_q24 + b);
     plane->c_q24 = roadpose_clamp(plane->c_q24 + c, -(INT64_C(1) << 40), INT64_C(1) << 40);
     return true;
+}
+
+/* tan(roll) of a plane, Q16. Clamped: what is steeper than 2^12 is no road anyway. */
+static int64_t roll_slope_q16(const roadpose_plane_t *plane) {
+    const int64_t limit = INT64_C(1) << 28;
+    const int64_t slope = roadpose_clamp(roadpose_ratio(plane->a_q24, plane->b_q24, 16), -limit, limit);
+    return slope * ROADPOSE_ROW_STEP / ROADPOSE_COLUMN_STEP;
+}
+
+bool roadpose_turned_too_far(const roadpose_plane_t *before, const roadpose_plane_t *after) {
+    return roadpose_abs(roll_slope_q16(after) - roll_slope_q16(before)) > UNEVEN_TURN_MAX_Q16;
 }

@@ -5,9 +5,14 @@
 #include "roadpose/state.h"
 
 /* Rounds of one refinement; each looks at the points once and moves the plane once. The first rounds take what lies
- * within a shrinking band of noise around the plane, from every eighth row where there are points enough; the last
- * ones follow the road where it is uneven. */
+ * within a shrinking band of noise around the plane, from every eighth row where there are points enough; from
+ * ROADPOSE_UNEVEN_ROUND on they follow the road where it is uneven. */
 #define ROADPOSE_REFINE_ROUNDS 7
+#define ROADPOSE_UNEVEN_ROUND 5
+
+/* Looks that move nothing, for the assessment of a plane: within the noise band, and within the widest band. */
+#define ROADPOSE_LOOK_NOISE 7
+#define ROADPOSE_LOOK_WIDE 8
 
 /* Which points count around the present plane. */
 typedef struct {
@@ -21,7 +26,7 @@ typedef struct {
     bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */
 } roadpose_road_rule_t;
 
-/* Prepares the rule of a round for the plane. Returns false when the plane is no plane. */
+/* Prepares the rule of a round, or of a look, for the plane. Returns false when the plane is no plane. */
 bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
                         const roadpose_settings_t *settings, uint8_t round);
 
@@ -44,5 +49,8 @@ void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *po
 /* Moves the plane by the least-squares step of the moments. Where the points do not spread sideways enough to tell
  * roll, the plane keeps a = 0 and *roll_observed is false. Returns false when not even b and c can be told. */
 bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *plane, bool *roll_observed);
+
+/* Did following the uneven road turn the plane further than a crown does? Then it followed a kerb. */
+bool roadpose_turned_too_far(const roadpose_plane_t *before, const roadpose_plane_t *after);
 
 #endif

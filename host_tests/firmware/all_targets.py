@@ -20,7 +20,8 @@ import targets
 SETTINGS = {"": "", "method-1": "--method 1", "method-1 no-refine e2e-2": "--method 1 --no-refine --e2e 2",
             "no-refine e2e-5": "--no-refine --e2e 5"}
 VARIED = ["roll-sweep", "no-road"]  # fixtures that are played with all of them; the others with the defaults
-LIBRARIES = ["lib/libroadpose.a", "lib/libroadpose_small.a", "port/camera/libroadpose_camera.a", "port/can/libroadpose_can.a"]
+LIBRARIES = ["lib/libroadpose.a", "lib/libroadpose_small.a", "port/camera/libroadpose_camera.a",
+             "port/can/libroadpose_can.a"]
 PROGRAMS = ["roadpose-firmware", "roadpose-firmware-small"]
 
 
@@ -131,7 +132,7 @@ def parse():
     parser.add_argument("--fixtures", required=True)
     parser.add_argument("--replay", required=True, help="the host's roadpose-replay")
     parser.add_argument("--small", required=True, help="the host's roadpose-firmware-small")
-    parser.add_argument("--frames", type=int, default=2, help="of each fixture, at most")
+    parser.add_argument("--frames", type=int, default=3, help="of each fixture, at most")
     parser.add_argument("--small-levels", nargs="*", default=["-O2"], help="where the small profile is built as well")
     parser.add_argument("--only", default="", help="targets whose name contains this, such as 'cortex-m4 -Os'")
     return parser.parse_args()

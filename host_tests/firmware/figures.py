@@ -112,14 +112,14 @@ def memory(builds):
 def graph_of(builds, machine, level, suffix):
     """The call graph of the core and its ports, with the run-time functions that they are linked with."""
     where, tools = builds.where[machine, level], builds.targets[machine, level].machine.tools
-    folders = [f"lib/CMakeFiles/roadpose{suffix}.dir", f"{'port/firmware' if suffix else 'port/camera'}/CMakeFiles/roadpose_camera{suffix}.dir",
-               "port/can/CMakeFiles"]
+    camera = "port/firmware" if suffix else "port/camera"
+    folders = [f"lib/CMakeFiles/roadpose{suffix}.dir", f"{camera}/CMakeFiles/roadpose_camera{suffix}.dir", "port/can/CMakeFiles"]
     graph = call_stack.read_graph([path for folder in folders for path in sorted((where / folder).rglob("*.ci"))])
     libraries = [where / f"lib/libroadpose{suffix}.a", where / "port/can/libroadpose_can.a"]
     with tempfile.TemporaryDirectory() as folder:
         program = f"{folder}/whole.elf"
-        targets.run([builds.compiler(machine), *core_flags(machine), "-nostartfiles", "-Wl,--entry=0,--no-gc-sections,--whole-archive", *libraries,
-                     "-Wl,--no-whole-archive", "-o", program])
+        targets.run([builds.compiler(machine), *core_flags(machine), "-nostartfiles",
+                     "-Wl,--entry=0,--no-gc-sections,--whole-archive", *libraries, "-Wl,--no-whole-archive", "-o", program])
         call_stack.add_disassembly(graph, f"{tools}objdump", program)
     return graph
 
@@ -130,7 +130,8 @@ def public_functions(builds):
 
 
 def stacks(builds):
-    """The larger of -Os and -O2 and of both profiles; a graph that does not know a function that a library calls is a fault."""
+    """The larger of -Os and -O2 and of both profiles. A library that calls a function which the graph does not know is a
+    fault."""
     worst, with_callbacks = {}, set()
     for machine, level in builds.where:
         for suffix in PROFILES.values():
@@ -144,11 +145,11 @@ def stacks(builds):
                 if call_stack.INDIRECT in graph.reached(name):
                     with_callbacks.add(name)
     names = sorted({name for name, _ in worst})
-    rows = {f"`{name}`" + (" + callback" if name in with_callbacks else ""): [worst.get((name, machine)) for machine in MACHINES]
-            for name in names}
-    return Table("Worst stack", "Bytes of each public call with all that it calls, the larger of -Os and -O2 and of both profiles: the "
-                 "compiler's figure of each function, followed through the call graph. No recursion, no stack of unknown size. "
-                 "\"+ callback\": and what the platform's function needs.", MACHINES, rows)
+    rows = {f"`{name}`" + (" + callback" if name in with_callbacks else ""):
+            [worst.get((name, machine)) for machine in MACHINES] for name in names}
+    return Table("Worst stack", "Bytes of each public call with all that it calls, the larger of -Os and -O2 and of both "
+                 "profiles: the compiler's figure of each function, followed through the call graph. No recursion, no stack "
+                 "of unknown size. \"+ callback\": and what the platform's function needs.", MACHINES, rows)
 
 
 def frame_count(folder):
@@ -172,8 +173,9 @@ def executed(builds, fixtures, machine, profile, recording):
 def instructions(builds, fixtures):
     rows = {f"{machine}, {profile}: {recording}": executed(builds, fixtures, machine, profile, recording)
             for machine in MACHINES for profile in PROFILES for recording in RECORDINGS}
-    return Table("Executed instructions", "At -O2, counted by the emulator; 640 x 480, the camera port and the whole pipeline. A slice is one call of "
-                 "`roadpose_camera_task(port, 1)`.", ["mean a frame", "a pixel", "worst frame", "worst slice"], rows)
+    return Table("Executed instructions", "At -O2, counted by the emulator; 640 x 480, the camera port and the whole "
+                 "pipeline. A slice is one call of `roadpose_camera_task(port, 1)`.",
+                 ["mean a frame", "a pixel", "worst frame", "worst slice"], rows)
 
 
 def measure(source, folder, fixtures):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""symbols.py TOOLS LIBRARY...: on any machine the libraries need nothing but mem* and the compiler's integer arithmetic, no
-float helper, no heap, no stdio, and have no writable data. TOOLS: how the names of nm and size begin."""
+"""symbols.py TOOLS LIBRARY...: on any machine the libraries need nothing but mem* and the compiler's integer arithmetic,
+no float helper, no heap, no stdio, and have no writable data. TOOLS: how the names of nm and size begin."""
 import re
 import sys
 
@@ -9,8 +9,8 @@ import archive
 # Integer division, multiplication and shift of 64 bits, and saving of registers, by their names in gcc's run-time.
 INTEGER_HELPERS = [
     r"__aeabi_u?[il]div(mod)?", r"__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)", r"__aeabi_mem(cpy|move|set|clr)[48]?",
-    r"__u?(div|mod|divmod)[sd]i[34]", r"__mul[sd]i3", r"__(ash[lr]|lshr)di3", r"__u?cmpdi2", r"__(clz|ctz|ffs|popcount|bswap)[sd]i2",
-    r"__riscv_(save|restore)_\d+", r"_(save|rest)gpr_\d+(_x)?", r"__gnu_thumb1_case_[su](qi|hi|si)",
+    r"__u?(div|mod|divmod)[sd]i[34]", r"__mul[sd]i3", r"__(ash[lr]|lshr)di3", r"__u?cmpdi2",
+    r"__(clz|ctz|ffs|popcount|bswap)[sd]i2", r"__riscv_(save|restore)_\d+", r"_(save|rest)gpr_\d+(_x)?", r"__gnu_thumb1_case_[su](qi|hi|si)",
 ]
 THUNK = re.compile(r"__x86\.get_pc_thunk\.\w+")  # position-independent code of 32-bit x86
 ALLOWED = re.compile("|".join([r"mem(cpy|move|set|cmp)", "_GLOBAL_OFFSET_TABLE_", *INTEGER_HELPERS]))

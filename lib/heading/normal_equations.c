@@ -2,11 +2,12 @@
 
 #include "fixed_point/fixed_point.h"
 
-#define KEPT_BITS 34
+#define KEPT_BITS 33
+#define Z_LIMIT (INT64_C(1) << 35) /* room for growth in the elimination */
 #define L_LIMIT (INT64_C(1) << 27)
 #define PIVOT_SHARE 14
 
-/* Shift, even, that brings every diagonal entry and right-hand side below 2^34. */
+/* Shift, even, that brings every diagonal entry and right-hand side below 2^33. */
 static unsigned shift_of(const roadpose_sums_t *sums, unsigned unknowns) {
     int64_t largest = 0;
     for (unsigned i = 0; i < unknowns; i++) {
@@ -18,8 +19,8 @@ static unsigned shift_of(const roadpose_sums_t *sums, unsigned unknowns) {
     return shift + (shift & 1u);
 }
 
-/* One column of the decomposition. Below and right of it, l holds the remaining Schur complement h: |h| <= 2^34
- * (positive definite, so no entry exceeds the largest diagonal): 2^54 in q20; |L h| <= 2^27 * 2^34 = 2^61. */
+/* One column of the decomposition. Below and right of it, l holds the remaining Schur complement h: |h| <= 2^33
+ * (positive definite, so no entry exceeds the largest diagonal): 2^53 in q20; |L h| <= 2^27 * 2^33, |L z| <= 2^62. */
 static bool eliminate(roadpose_factors_t *f, unsigned column, int64_t pivot_min) {
     const int64_t pivot = f->l[column][column];
     if (pivot <= pivot_min) {
@@ -33,7 +34,7 @@ static bool eliminate(roadpose_factors_t *f, unsigned column, int64_t pivot_min)
             f->l[i][k] = roadpose_clamp(f->l[i][k] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
         }
         const int64_t part = roadpose_floor_shift(ratio * f->z[column], 20);
-        f->z[i] = roadpose_clamp(f->z[i] - part, -(INT64_C(1) << KEPT_BITS), INT64_C(1) << KEPT_BITS);
+        f->z[i] = roadpose_clamp(f->z[i] - part, -Z_LIMIT, Z_LIMIT);
         f->l[i][column] = ratio;
     }
     return true;
@@ -59,7 +60,7 @@ bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose
 /* L^T x = y, from the last unknown up. |L| <= 2^27, |x| <= 2^28: products below 2^55, sums of four below 2^57. */
 void roadpose_solve(const roadpose_factors_t *factors, int32_t *x_q28) {
     for (unsigned i = factors->unknowns; i-- > 0;) {
-        int64_t x = factors->z[i] * (INT64_C(1) << 22) / factors->d[i]; /* q46 / q40, 22 more bits: q28; < 2^56 */
+        int64_t x = factors->z[i] * (INT64_C(1) << 22) / factors->d[i]; /* q46 / q40, 22 more bits: q28; < 2^57 */
         x = roadpose_clamp(x, -(INT64_C(1) << 40), INT64_C(1) << 40);
         for (unsigned k = i + 1; k < factors->unknowns; k++) {
             x -= roadpose_floor_shift(factors->l[k][i] * x_q28[k], 20);

@@ -1,5 +1,5 @@
-/* roadpose-speed RECORDING [REPEATS]: time of the whole pipeline on one frame beside that of one plain v-disparity
- * histogram pass over the same buffer, in the same run. Prints Markdown. */
+/* roadpose-speed RECORDING [REPEATS [LIMIT]]: time of the whole pipeline on one frame beside that of one plain v-disparity
+ * histogram pass over the same buffer, in the same run. Prints Markdown. Exit status 1 when a ratio is over LIMIT. */
 #define _POSIX_C_SOURCE 199309L
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 
 static roadpose_t instance;
 static uint16_t histogram[ROADPOSE_MAX_HEIGHT][ROADPOSE_MAX_DISPARITY];
+static double limit = 1e9, worst_ratio;
 static volatile uint32_t sink; /* keeps the compiler from leaving work out */
 
 static double now_us(void) {
@@ -86,6 +87,7 @@ static int time_frame(const recording_t *recording, uint8_t *samples, int index,
     printf("| %d | %s | %.0f | %.0f | %.2f |\n", index, roadpose_status_word(timing.pose.status), timing.pipeline_us,
            timing.plain_us, timing.ratio);
     fflush(stdout);
+    if (timing.ratio > worst_ratio) worst_ratio = timing.ratio;
     return 0;
 }
 
@@ -114,11 +116,13 @@ int main(int argc, char **argv) {
     static recording_t recording;
     const int repeats = argc > 2 ? atoi(argv[2]) : 301;
     if (argc < 2 || repeats < 1) {
-        fprintf(stderr, "usage: roadpose-speed RECORDING [REPEATS]\n");
+        fprintf(stderr, "usage: roadpose-speed RECORDING [REPEATS [LIMIT]]\n");
         return 2;
     }
+    if (argc > 3) limit = atof(argv[3]);
     if (!recording_open(&recording, argv[1])) return 3;
     const int failed = time_recording(&recording, repeats);
     recording_close(&recording);
-    return failed;
+    if (worst_ratio > limit) fprintf(stderr, "roadpose-speed: a ratio of %.2f, at most %.2f\n", worst_ratio, limit);
+    return failed ? failed : worst_ratio > limit;
 }

@@ -124,13 +124,35 @@ static bool look_at_points(roadpose_t *instance, uint8_t round) {
 static void accept(roadpose_t *instance) {
     roadpose_accept(&instance->pose, &instance->plane, &instance->moments, &instance->grid, &instance->settings,
                     instance->roll_observed);
-    roadpose_enter(instance, PHASE_DONE);
+    const bool has_roll = (instance->pose.observed & ROADPOSE_OBSERVED_ROLL) != 0u;
+    const bool has_corridor = instance->settings.corridor_half_width_mm != 0;
+    roadpose_enter(instance, (has_roll && has_corridor && instance->settings.refine) ? PHASE_INNER : PHASE_DONE);
+}
+
+/* A plane may lean on a kerb with one side: then the lane's inner half says otherwise. */
+static void inner_slice(roadpose_t *instance) {
+    if (!look_at_points(instance, ROADPOSE_LOOK_INNER)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
+        return;
+    }
+    if (instance->cursor < (uint16_t)instance->grid.rows) {
+        return;
+    }
+    roadpose_plane_t inner = instance->plane;
+    bool roll_observed = false;
+    const bool is_plane = roadpose_refine_step(&instance->moments, &inner, &roll_observed);
+    if (is_plane && roll_observed &&
+        roadpose_turned_too_far(&instance->plane, &inner, ROADPOSE_INNER_TURN_MAX_Q16)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_POOR_FIT);
+    } else {
+        roadpose_enter(instance, PHASE_DONE);
+    }
 }
 
 /* The last step moves the plane by far less than the band, so its look stands for the assessment; unless the plane
  * followed a kerb: then the one within the noise band is the road's, and is looked at anew. */
 static void refine_done(roadpose_t *instance) {
-    if (roadpose_turned_too_far(&instance->noise_plane, &instance->plane)) {
+    if (roadpose_turned_too_far(&instance->noise_plane, &instance->plane, ROADPOSE_UNEVEN_TURN_MAX_Q16)) {
         instance->plane = instance->noise_plane;
         roadpose_enter(instance, PHASE_ASSESS);
     } else {
@@ -191,6 +213,9 @@ void roadpose_work_slice(roadpose_t *instance) {
     case PHASE_ASSESS:
         assess_slice(instance);
         break;
+    case PHASE_INNER:
+        inner_slice(instance);
+        break;
     default:
         roadpose_method_slice(instance);
         break;
@@ -202,7 +227,7 @@ uint32_t roadpose_work_slices_max(void) {
     const uint32_t row_pass = (ROADPOSE_MAX_GRID_ROWS + rows_a_slice - 1u) / rows_a_slice;
     const uint32_t columns_a_slice = ROADPOSE_SLICE_SAMPLES / ROADPOSE_MAX_DISPARITY;
     const uint32_t column_pass = (ROADPOSE_MAX_GRID_COLUMNS + columns_a_slice - 1u) / columns_a_slice;
-    /* clear and free map; u- and v-disparity, the refinement and one look more. A narrower image than the limit has
+    /* clear and free map; u- and v-disparity, the refinement and two looks more. A narrower image than the limit has
      * fewer columns and so more rows a slice: never more slices. */
-    return 2u * column_pass + (3u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
+    return 2u * column_pass + (4u + ROADPOSE_REFINE_ROUNDS) * row_pass + roadpose_method_slices_max();
 }

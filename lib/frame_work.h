@@ -22,7 +22,8 @@ typedef enum {
     PHASE_INTERCEPT,   /*           robust line through the intercepts */
     PHASE_INTERCEPT_FIT,
     PHASE_REFINE,
-    PHASE_ASSESS
+    PHASE_ASSESS,
+    PHASE_INNER /* the inner half of the corridor is asked too */
 } roadpose_phase_t;
 
 /* Does one slice of the running phase and moves on where it is finished. */

@@ -12,11 +12,6 @@
 #define FIRST_ROUNDS 3u
 static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 
-/* How far the uneven rounds may turn the plane about the direction of travel, tan(roll) in Q16: 0.005, or 0.29 degrees.
- * On crowned streets it was up to 0.24 degrees, on flat ones 0.01. A kerb within the corridor, 6 to 10 cm high on one
- * side, would turn it by 0.6 to 1.5 degrees. */
-#define UNEVEN_TURN_MAX_Q16 328
-
 /* The mean residual of a distance may be this share of the noise band: the mean of many points is that much better
  * known than one point. Without it the plane creeps up the foot of a speed bump. */
 #define LEVEL_OFFSET_SHARE 3
@@ -24,7 +19,7 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 /* With at least this many points the first rounds look at every eighth row only: 512 points find the plane well
  * enough for the last rounds, which look at all. */
 #define POINTS_PLENTY 4096u
-#define FIRST_ROW_STEP 8u
+#define SPARSE_ROW_STEP 8u
 
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
 #define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
@@ -50,11 +45,12 @@ static int32_t noise_band_q8(uint8_t round, const roadpose_settings_t *settings)
 }
 
 static bool is_uneven(uint8_t round) {
-    return round >= ROADPOSE_UNEVEN_ROUND && round < ROADPOSE_REFINE_ROUNDS;
+    return (round >= ROADPOSE_UNEVEN_ROUND && round < ROADPOSE_REFINE_ROUNDS) || round == ROADPOSE_LOOK_INNER;
 }
 
 uint16_t roadpose_refine_row_step(uint8_t round, uint16_t points) {
-    return (round < ROADPOSE_UNEVEN_ROUND && points >= POINTS_PLENTY) ? FIRST_ROW_STEP : 1u;
+    const bool is_sparse = round < ROADPOSE_UNEVEN_ROUND || round == ROADPOSE_LOOK_INNER;
+    return (is_sparse && points >= POINTS_PLENTY) ? SPARSE_ROW_STEP : 1u;
 }
 
 /* A road point's X in baselines: X / B = (u - cu) / d. The corridor is centred under the rig: a road point
@@ -70,7 +66,7 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     /* Degenerate planes may have a tiny k: the clamps keep every product below 2^62. */
     rule->centre_q12 = (int32_t)roadpose_clamp(roadpose_ratio(n_x_q16, k, 20), -NO_LIMIT_Q12, NO_LIMIT_Q12);
     const int64_t cosine_q16 = (int64_t)roadpose_sqrt((uint64_t)((INT64_C(1) << 32) - n_x_q16 * n_x_q16));
-    const int64_t width_um = (int64_t)settings->corridor_half_width_mm * 1000;
+    const int64_t width_um = (int64_t)settings->corridor_half_width_mm * ((round == ROADPOSE_LOOK_INNER) ? 500 : 1000);
     /* width <= 1e8 um, cosine <= 2^16: product < 2^43; / B >= 20 000 and from Q16 to Q12: < 2^25 */
     const int64_t half_q12 = width_um * cosine_q16 / grid->baseline_um / 16;
     rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : (int32_t)(half_q12 * 9 / 8);
@@ -311,6 +307,6 @@ static int64_t roll_slope_q16(const roadpose_plane_t *plane) {
     return slope * ROADPOSE_ROW_STEP / ROADPOSE_COLUMN_STEP;
 }
 
-bool roadpose_turned_too_far(const roadpose_plane_t *before, const roadpose_plane_t *after) {
-    return roadpose_abs(roll_slope_q16(after) - roll_slope_q16(before)) > UNEVEN_TURN_MAX_Q16;
+bool roadpose_turned_too_far(const roadpose_plane_t *before, const roadpose_plane_t *after, int32_t max_q16) {
+    return roadpose_abs(roll_slope_q16(after) - roll_slope_q16(before)) > max_q16;
 }

@@ -1,0 +1,144 @@
+"""The tables of the page."""
+from collections import Counter
+
+import numpy as np
+
+from results import (OURS, PAPER_TABLE_1, PAPER_TABLE_2, errors, mean_absolute, score, time_ratio)
+
+SWEEP = "roll-sweep"
+
+
+def cell(value, digits):
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def triple(a_score):
+    return [cell(a_score.pitch, 4), cell(a_score.roll, 4), cell(a_score.height, 2)]
+
+
+def median_time(rows):
+    return float(np.median([row.time_us for row in rows]))
+
+
+def time_saved(results, share, suffix):
+    """Percent of the time that all points take; of the whole frame, decoding and histograms included."""
+    whole = results.of(SWEEP, "roadpose" if suffix else "Method 2 alone")
+    part = results.of(SWEEP, f"points {share}{suffix}")
+    ratios = [after.time_us / before.time_us for before, after in zip(whole, part)]
+    return 100 * (1 - float(np.median(ratios)))
+
+
+def table_1(page, results):
+    rows = []
+    for share, (pitch, roll, saved) in PAPER_TABLE_1.items():
+        alone, refined = (score(results.of(SWEEP, f"points {share}{suffix}")) for suffix in ("", " refined"))
+        rows.append([f"{share} %", cell(pitch, 3), cell(roll, 3), f"−{saved} %", cell(alone.pitch, 3),
+                     cell(alone.roll, 3), f"{-time_saved(results, share, ''):+.0f} %", cell(refined.pitch, 3),
+                     cell(refined.roll, 3), f"{-time_saved(results, share, ' refined'):+.0f} %"])
+    page.table(["points", "paper: pitch °", "roll °", "time", "Method 2 alone: pitch °", "roll °", "time",
+                "with refinement: pitch °", "roll °", "time"], rows)
+
+
+TABLE_2 = [("Method 2 with refinement (default)", OURS, "Method 2"), ("Method 2 alone", "Method 2 alone", "Method 2"),
+           ("virtual disparity map", "virtual disparity map", "virtual disparity map"),
+           ("virtual free map", "virtual free map", "virtual free map")]
+
+
+def ratio(paper, ours):
+    return "–" if not ours else f"{paper / ours:.1f}"
+
+
+def table_2(page, results):
+    rows = []
+    for name, candidate, paper_name in TABLE_2:
+        paper, mine = PAPER_TABLE_2[paper_name], score(results.of(SWEEP, candidate))
+        rows.append([name, cell(mine.roll, 4), cell(mine.pitch, 4), cell(mine.height, 2), *paper,
+                     ratio(paper[0], mine.roll), ratio(paper[1], mine.pitch), ratio(paper[2], mine.height),
+                     f"{mine.accepted} of {mine.frames}"])
+    page.table(["", "ours: roll °", "pitch °", "height mm", "paper: roll °", "pitch °", "height mm",
+                "paper / ours: roll", "pitch", "height", "accepted"], rows)
+
+
+def is_peer(candidate):
+    return candidate.startswith(("Hough", "RANSAC plane", "Open3D"))
+
+
+def peer_row(results, recording, candidate):
+    mine = score(results.of(recording, candidate))
+    ratio_of_times = time_ratio(results, recording, candidate)
+    return [candidate, *triple(mine), f"{mine.accepted} of {mine.frames}",
+            "1" if candidate == OURS else cell(ratio_of_times, 1 if ratio_of_times < 100 else 0)]
+
+
+def peers(page, results, recording):
+    shown = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of(recording, name)]
+    page.table(["", "pitch °", "roll °", "height mm", "accepted", "time / ours"],
+               [peer_row(results, recording, name) for name in shown])
+
+
+def peers_elsewhere(page, results, names):
+    sets = [name for name in results.recordings() if name != "no-road"]
+    rows = []
+    for recording in sets:
+        row = [f"`{recording}`"]
+        for name in names:
+            mine = score(results.of(recording, name))
+            row += [f"{cell(mine.pitch, 3)} / {cell(mine.roll, 3)} / {cell(mine.height, 1)}", largest(results.of(recording, name))]
+        rows.append(row)
+    header = ["recording"]
+    for name in names:
+        header += [f"{name}: pitch ° / roll ° / height mm", "largest pitch °"]
+    page.table(header, rows)
+
+
+def largest(rows):
+    values = np.abs(errors(rows, 0))
+    return cell(float(values.max()) if len(values) else None, 2)
+
+
+def false_roads(page, results):
+    names = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of("no-road", name)]
+    rows = [[name, sum(row.status == "ok" for row in results.of("no-road", name)), len(results.of("no-road", name))]
+            for name in names]
+    page.table(["", "frames without a road that got a pose", "of"], rows)
+
+
+def against_oracle(page, results):
+    rows = []
+    for recording in results.recordings():
+        if recording == "no-road":
+            continue
+        accepted = {row.frame for row in results.of(recording, OURS) if row.status == "ok"}
+        line = [f"`{recording}`"]
+        for name in (OURS, "oracle: true road in the corridor", "oracle: true road"):
+            line += triple(score([row for row in results.of(recording, name) if row.frame in accepted]))
+        rows.append(line)
+    page.table(["recording", "ours: pitch °", "roll °", "height mm", "oracle in the corridor: pitch °", "roll °", "height mm",
+                "oracle, all road: pitch °", "roll °", "height mm"], rows)
+
+
+STATUSES = ["ok", "no_disparity", "no_road", "little_support", "short_range", "poor_fit", "outside_limits"]
+
+
+def accepted_and_refused(page, results):
+    rows = []
+    for recording in results.recordings():
+        counts = Counter(row.status for row in results.of(recording, OURS))
+        rows.append([f"`{recording}`", sum(counts.values()), *(counts.get(status, 0) or "" for status in STATUSES)])
+    page.table(["recording", "frames", *(f"`{status}`" for status in STATUSES)], rows)
+
+
+def drives(page, rows):
+    page.table(["drive", "estimator", "frames", "accepted", "pitch error °: mean", "deviation", "roll error °: mean",
+                "deviation", "height error mm: mean", "deviation"], rows)
+
+
+def fastest_peer(results):
+    names = [name for name in results.candidates() if is_peer(name)]
+    return min((time_ratio(results, SWEEP, name), name) for name in names)
+
+
+def best_peer(results, axis):
+    names = [name for name in results.candidates() if is_peer(name)]
+    known = [(mean_absolute(results.of(SWEEP, name), axis), name) for name in names]
+    return min(pair for pair in known if pair[0] is not None)

@@ -1,0 +1,85 @@
+"""The words of the page."""
+
+INTRODUCTION = """What roadpose reaches on rendered streets with exact truth, beside the figures of *the paper* (Musleh, Martín,
+Armingol, de la Escalera, "Pose Self-Calibration of Stereo Vision Systems for Autonomous Vehicle Applications", Sensors
+2016, 16, 1492) and beside what a project would otherwise use. This page is written by one command, which installs what
+only it needs in an environment of its own:"""
+
+COMMAND = "sh host_tests/evaluation/run.sh"
+
+READING = """Errors are mean absolute errors, estimate minus truth, over the frames that got a pose, unless it says otherwise. The frames
+are the *full* fixture set of [fixtures/README.md](../../fixtures/README.md): other seeds than the committed one, on which settings were
+tuned. The paper's scenes were rendered too, but by others: its figures are not from our frames. All its own errors include
+those of its matcher, as ours do. Poses are the same in every run; times are not, so only ratios within one run are given, one
+core, `-O2`, median over the frames."""
+
+VERDICT = """**Speed.** The fastest peer is always one that we helped: a RANSAC plane that gets our sampling grid (one pixel in eight) and our
+corridor, stops as soon as it is sure, and has its input converted for free. The same RANSAC over every pixel, as one would write it
+first, is in the table of peers. A v-disparity alone is one pass over the frame and costs more than half of what our whole pipeline costs,
+so no estimator can be 20 times slower than ours and begin with a single v-disparity. **Pitch.** Nearly all of our 0.02° is the
+matcher's constant +0.03 px, which every fit in disparity space takes over; see the oracle, which knows the true road. A metric fit with a
+band of centimetres weighs near points more and suffers less from it."""
+
+TABLE_1 = """Roll sweep, ±20°. The time is that of the whole frame, decoding and histograms included, against 100 % of the points. It
+hardly falls: Method 2 here draws at most 512 pairs whatever the share, so the share only makes sorting cheaper, and most of the
+frame's time goes into reading the samples. With the refinement the share hardly matters: Method 2 only has to start it."""
+
+TABLE_2 = """*Method 2 alone* is the paper's method as roadpose implements it, with the ±2 m corridor. The virtual maps are comparators,
+written for this page only, and **this is our reading of them**: the roll is taken from the slope of the lines of constant disparity (RANSAC over
+4096 pairs of pixels of one level, then least squares); the map, all pixels or those of the free map, is re-seen by a virtual camera turned back by
+that roll (nearest neighbour, always from the original map); repeated until less than 0.005° is left; then Method 1 on it (RANSAC and
+least squares of the v-disparity's line). They see the whole image, as in the paper: pavements raised by 15 cm are a second plane to them."""
+
+FIGURE_2 = """Figure 2. Tracks of a drive straight ahead and the intersections of their lines. Left: tracks from the previous to this frame,
+with noise and a share that follows other motions. Right: intersections of 3000 random pairs. Red: the true focus of expansion."""
+FIGURE_3 = """Figure 3. Left image, u-disparity, v-disparity, v-disparity-free. The rows are a level street, heavy traffic, a crowned
+road. Dashed red: the road profile of Method 1. The v-disparity-free is the library's own, obstacles removed and within its corridor; the others are
+of every pixel. Grey levels are logarithmic."""
+FIGURE_4 = """Figure 4. Pitch and height along the level drive by Method 1, from the v-disparity of the whole map and from the
+v-disparity-free, no corridor for either. Without obstacles it is nearer to the truth."""
+FIGURE_5 = """Figure 5. Pitch and height along the drive over the speed bump. The truth is the plane of the flat road, so the pitch swings as the
+axles climb. Method 1 of the whole map and of the free map, and the default, which refuses the frames (gaps) where the bump fills the near road."""
+FIGURE_6 = """Figure 6. What roll does to a v-disparity. One and the same street: with roll 0 the road is a line, with roll it smears into a wedge,
+and Method 1 has nothing to fit."""
+FIGURE_7 = """Figure 7. The two stages of Method 2 on that street under two rolls. Left: slopes of pairs of one disparity level; they gather
+at the same slope at all levels (dashed: the result). Right: intercepts of the pairs with that slope lie on a line over the disparity
+(dashed: the result)."""
+FIGURE_8 = """Figure 8. The cloud of slopes and intercepts of the same pairs, each with its own slope. Colour: disparity. Dashed: the common slope
+that was found."""
+FIGURE_9 = """Figure 9. Roll sweep by Method 1, which takes roll as 0: pitch and height, and their errors. It has an answer near 0 only; at other
+rolls the frame is refused, rather than answered wrongly."""
+FIGURE_10 = "Figure 10. Roll sweep by Method 2, alone and with refinement: roll, pitch and height against the truth, and the errors below."
+FIGURE_11 = """Figure 11. The virtual maps at a roll of 20°. Above: disparity (colour) as seen, turned back, and both with the free map's pixels only.
+Below: their v-disparities. Turned back, the road is a line again."""
+FIGURE_12 = "Figure 12. Roll sweep by the virtual maps and by Method 2, alone and with refinement: estimates, and the errors below."
+
+REAL_DRIVES = """Pictures of real drives are not ours to pass on: the command writes Figures 13 and 14 into its build folder where
+`ROADPOSE_RECORDINGS` names the drives, and this table, which it leaves as it is where they are not at hand. `street-lidar`: a residential street
+with a crowned road, truth from a laser scanner, good to 0.15° and 3 cm, constant over the drive; the deviation is the fairer figure.
+`straight-motion`: no truth, the deviation contains what the car really did."""
+
+PEERS = """What one would use instead. All see the same frames in one run on one core; the conversion of the samples into what each
+one likes best (floating-point disparities, points in metres) is not charged to it, while our time includes decoding the raw samples. A pose
+outside the mounting limits (pitch −10…+15°, roll ±25°, height 0.3…4 m) is passed over and the next best is taken: they are the same for all."""
+PEER_SETTINGS = [
+    """**Hough**: v-disparity of the whole map with OpenCV, cells above 2 % of the width, `HoughLines`, the strongest line within the
+    mounting limits; *then least squares*: of the histogram within 1.5 levels of it. It cannot see roll: at home on the level street only.""",
+    """**RANSAC plane**: double precision, in disparity space, three points a hypothesis, band 0.6 px, stops when 99.9 % sure or after 1000,
+    then three rounds of least squares on the inliers.""",
+    """**Open3D** 0.20 `segment_plane` in metres: band 3 cm (the best of 1, 2, 3, 5 and 10 cm on the committed roll sweep), 3 points, 1000 hypotheses.
+    On the other sets only the cropped points: the whole map takes seconds a frame.""",
+    """*Cropped*: only what lies within 3 m sideways and 25 m ahead, the box that our free map cuts out. *2 x 4 grid*: one pixel in
+    eight, those that our library looks at.""",
+]
+PEER_FIGURE = """Accuracy and time on the roll sweep, both logarithmic. Down and to the left is better. Green: roadpose; orange: Hough lines; blue: RANSAC plane;
+red: Open3D."""
+FALSE_ROADS = "Frames without any road: walls, fences, the back of a lorry, a ceiling, fog, noise, nothing."
+
+ORACLE = """The oracle is a double-precision least-squares plane on the *true* road pixels of the same disparities, fitted again twice
+without what is further than 0.6 px off: what a perfect choice of pixels reaches. Its own error is the matcher's. On the frames that we accepted. On
+`dirt` it trips over the salt, on `crown` *all road* is no plane."""
+HISTOGRAMS = "Errors of all accepted frames of all sets, default settings. Errors beyond the axis are counted in its last bar."
+WORST = """The worst accepted frame of each set (errors in its title). Green: disparity within 0.6 px of the plane that was found; red: nearer
+than the plane; blue: farther, up to 2.5 px; dashed yellow: the horizon that was found."""
+SENSITIVITY = """Mean absolute errors on `roll-sweep` and `level` while one thing is wrong: a constant added to every disparity, independent noise on top
+of the matcher's, a wrong focal length, a wrong baseline. The bias adds to the matcher's own +0.03 px, so −0.05 px is better than 0."""

@@ -184,11 +184,20 @@ static void refine_slice(roadpose_t *instance) {
     }
 }
 
+/* A plane that was not refined is held against the widest band. One that goes back behind the uneven rounds comes from
+ * few rows: one more step on all of them, within the noise band. */
 static void assess_slice(roadpose_t *instance) {
-    /* a plane that was not refined is held against the widest band */
-    if (!look_at_points(instance, instance->settings.refine ? ROADPOSE_LOOK_NOISE : ROADPOSE_LOOK_WIDE)) {
+    const bool refine = instance->settings.refine;
+    if (!look_at_points(instance, refine ? ROADPOSE_LOOK_NOISE : ROADPOSE_LOOK_WIDE)) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
-    } else if (instance->cursor == (uint16_t)instance->grid.rows) {
+        return;
+    }
+    if (instance->cursor < (uint16_t)instance->grid.rows) {
+        return;
+    }
+    if (refine && !roadpose_refine_step(&instance->moments, &instance->plane, &instance->roll_observed)) {
+        roadpose_finish(instance, ROADPOSE_STATUS_LITTLE_SUPPORT);
+    } else {
         accept(instance);
     }
 }

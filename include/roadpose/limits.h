@@ -4,7 +4,8 @@
  * (-DROADPOSE_MAX_WIDTH=1280) in the library AND in everything that includes its headers; the CMake target
  * `roadpose` passes the right ones on. A limit that cannot work stops the build with a message that says what to
  * change. The sampling steps change which pixels are read, so they change results; the other limits only change
- * what fits: a frame that fits two builds with the same steps, points and pairs gives the same bits in both.
+ * what fits: a frame that fits two builds with the same steps, points and pairs gives the same bits in both, where its
+ * road, matched or not, stays below ROADPOSE_MAX_DISPARITY of both down to the last row.
  *
  * | limit                   | default | small profile | raise it when                                              |
  * |-------------------------|---------|---------------|------------------------------------------------------------|

@@ -16,8 +16,9 @@ typedef enum {
 } roadpose_status_t;
 #define ROADPOSE_STATUS_COUNT 7
 
-/* Bits of roadpose_pose_t.observed. Pitch and height are observed in every accepted frame; roll is not by Method 1
- * without refinement, nor where the road points spread less than 20 px (root mean square) sideways. */
+/* Bits of roadpose_pose_t.observed. Pitch and height are observed in every accepted frame. Roll is not by Method 1
+ * without refinement, nor where the road points spread less than 20 px (root mean square) sideways; pitch and height then
+ * rest on a roll of zero (Method 1) or on Method 2's rough slope. */
 #define ROADPOSE_OBSERVED_PITCH 1u
 #define ROADPOSE_OBSERVED_ROLL 2u
 #define ROADPOSE_OBSERVED_HEIGHT 4u

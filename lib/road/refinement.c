@@ -294,7 +294,7 @@ bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *p
     solve_slopes(&s, *roll_observed, &a, &b);
     /* mean residual: r sum in Q8 -> Q24: 2^15 * 2^10 * 2^16; x, y sums < 2^25: a * x < 2^55 */
     const int64_t c = (moments->r * 65536 - a * moments->x - b * moments->y) / n;
-    plane->a_q24 = *roll_observed ? roadpose_clamp32(plane->a_q24 + a) : 0;
+    plane->a_q24 = roadpose_clamp32(plane->a_q24 + a);
     plane->b_q24 = roadpose_clamp32(plane->b_q24 + b);
     plane->c_q24 = roadpose_clamp(plane->c_q24 + c, -(INT64_C(1) << 40), INT64_C(1) << 40);
     return true;

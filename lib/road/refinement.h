@@ -49,7 +49,8 @@ void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *po
                               const roadpose_road_rule_t *rule, const roadpose_grid_t *grid, int16_t row);
 
 /* Moves the plane by the least-squares step of the moments. Where the points do not spread sideways enough to tell
- * roll, the plane keeps a = 0 and *roll_observed is false. Returns false when not even b and c can be told. */
+ * roll, the plane keeps the slope that the method gave it (0 by Method 1), which pitch and height need, and
+ * *roll_observed is false. Returns false when not even b and c can be told. */
 bool roadpose_refine_step(const roadpose_moments_t *moments, roadpose_plane_t *plane, bool *roll_observed);
 
 /* Largest turn of the plane about the direction of travel, tan(roll) in Q16.

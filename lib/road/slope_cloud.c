@@ -97,10 +97,8 @@ static uint32_t level_start(const roadpose_cloud_t *cloud, uint32_t level) {
  * of the image, would decide alone, and a speed bump there would pass for the road. */
 static uint32_t draw_sort_level(const roadpose_cloud_t *cloud, uint32_t *random) {
     const uint32_t octaves = (uint32_t)cloud->last_octave - cloud->first_octave + 1u;
-    const uint32_t start = UINT32_C(1) << (cloud->first_octave + roadpose_lcg_below(random, octaves));
-    /* where the levels are no power of two, the last octave is cut short; start < ROADPOSE_SORT_LEVELS always */
-    const uint32_t left = ROADPOSE_SORT_LEVELS - start;
-    return start + roadpose_lcg_below(random, (left < start) ? left : start);
+    const uint32_t size = UINT32_C(1) << (cloud->first_octave + roadpose_lcg_below(random, octaves));
+    return size + roadpose_lcg_below(random, size); /* < 2 * ROADPOSE_SORT_LEVELS */
 }
 
 /* Draws a point about as near in disparity as the first, wherever it stands in the image. */
@@ -117,9 +115,12 @@ static uint16_t draw_partner(const roadpose_cloud_t *cloud, uint32_t level, uint
 void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,
                              uint32_t *random) {
     const uint32_t level = draw_sort_level(cloud, random);
+    if (level >= ROADPOSE_SORT_LEVELS || cloud->pairs >= ROADPOSE_MAX_PAIRS) {
+        return; /* beyond the levels is as empty as an empty level: larger limits draw the same pairs */
+    }
     const uint32_t start = level_start(cloud, level);
     const uint32_t count = cloud->bucket[level] - start;
-    if (count == 0u || cloud->pairs >= ROADPOSE_MAX_PAIRS) {
+    if (count == 0u) {
         return;
     }
     const uint16_t first = cloud->order[start + roadpose_lcg_below(random, count)];

@@ -2,6 +2,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ std::string fixtures;
 std::vector<std::string> frames_of_fixtures() {
     std::vector<std::string> names;
     cv::glob(fixtures + "/*.pgm", names, true);
+    const auto is_grey = [](const std::string& name) { return name.find("/disparity/") == std::string::npos; };
+    names.erase(std::remove_if(names.begin(), names.end(), is_grey), names.end());  // left/ holds grey images
     TEST_ASSERT_TRUE_MESSAGE(!names.empty(), "no frames in the fixtures");
     return names;
 }

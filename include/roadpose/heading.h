@@ -138,11 +138,14 @@ typedef struct {
 } roadpose_lens_t;
 
 typedef struct {
+    int32_t du_q22[ROADPOSE_MAX_VOTERS]; /* flow without the vehicle's rotation */
+    int32_t dv_q22[ROADPOSE_MAX_VOTERS];
+    int32_t turn_u_q22[ROADPOSE_MAX_VOTERS]; /* what one step of the search for a turn adds to it */
+    int32_t turn_v_q22[ROADPOSE_MAX_VOTERS];
     int16_t mx_q12[ROADPOSE_MAX_VOTERS];
     int16_t my_q12[ROADPOSE_MAX_VOTERS];
     int16_t dx_q15[ROADPOSE_MAX_VOTERS];
     int16_t dy_q15[ROADPOSE_MAX_VOTERS];
-    uint16_t flow[ROADPOSE_MAX_VOTERS];
     uint16_t count;
 } roadpose_voters_t;
 

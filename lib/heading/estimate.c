@@ -7,8 +7,8 @@
 #include "heading/heading.h"
 #include "heading/yaw_angle.h"
 
-#define HYPOTHESES 56u
-#define HYPOTHESES_TURNING 5u /* for each of the rotations that are tried */
+#define HYPOTHESES 48u
+#define HYPOTHESES_TURNING 4u /* for each of the rotations that are tried */
 #define FOCUS_ROUNDS 2u, 1u /* coarse, fine */
 #define MOTION_ROUNDS 2u, 1u /* and a last one, which tells what the fit leaves open */
 #define LAST_ROUNDS 1u
@@ -188,7 +188,7 @@ static void judge(const roadpose_heading_t *instance, const int32_t *along_q16, 
 static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
     uint32_t random = instance->settings.seed;
     int32_t along_q16[ROADPOSE_UNKNOWNS_MOTION];
-    roadpose_voters_choose(instance);
+    roadpose_voters_choose(instance, out->focus.motion.turn_q24);
     const uint32_t score = roadpose_focus_search(instance, HYPOTHESES, &random, &out->focus.motion);
     out->focus.noise_q22 = roadpose_noise_max_q22(instance);
     if (score == 0 || !roadpose_fit_rounds(instance, &out->focus, ROADPOSE_UNKNOWNS_FOCUS, FOCUS_ROUNDS) ||

@@ -27,25 +27,25 @@ static bool within(int64_t x, int64_t limit) {
     return x >= -limit && x <= limit;
 }
 
-/* q24 ends to q16 middle and q22 step. Both ends within the reach, so the middle is too. */
+/* q24 ends to q16 middle and q22 step. */
 static bool flow_of_axis(int64_t x0, int64_t x1, int32_t *middle_q16, int32_t *step_q22) {
-    *middle_q16 = (int32_t)roadpose_floor_shift(
-        roadpose_clamp(x0 + x1, -2 * ROADPOSE_FLOW_REACH_Q24, 2 * ROADPOSE_FLOW_REACH_Q24), 9);
-    *step_q22 = (int32_t)roadpose_floor_shift(
-        roadpose_clamp(x1 - x0, -ROADPOSE_FLOW_LENGTH_Q24, ROADPOSE_FLOW_LENGTH_Q24), 2);
-    return within(x0, ROADPOSE_FLOW_REACH_Q24) && within(x1, ROADPOSE_FLOW_REACH_Q24) &&
-           within(x1 - x0, ROADPOSE_FLOW_LENGTH_Q24);
+    if (!within(x0, ROADPOSE_FLOW_REACH_Q24) || !within(x1, ROADPOSE_FLOW_REACH_Q24) ||
+        !within(x1 - x0, ROADPOSE_FLOW_LENGTH_Q24)) {
+        return false;
+    }
+    *middle_q16 = (int32_t)roadpose_floor_shift(x0 + x1, 9);
+    *step_q22 = (int32_t)roadpose_floor_shift(x1 - x0, 2);
+    return true;
 }
 
 static bool flow_of_track(const roadpose_lens_t *lens, const roadpose_track_t *track, roadpose_flow_t *flow) {
     if (!in_image(lens, track->u0_q8, track->v0_q8) || !in_image(lens, track->u1_q8, track->v1_q8)) {
         return false;
     }
-    const bool u = flow_of_axis(angle_q24(lens, track->u0_q8 - lens->cu_q8), angle_q24(lens, track->u1_q8 - lens->cu_q8),
-                                &flow->mx_q16, &flow->dx_q22);
-    const bool v = flow_of_axis(angle_q24(lens, track->v0_q8 - lens->cv_q8), angle_q24(lens, track->v1_q8 - lens->cv_q8),
-                                &flow->my_q16, &flow->dy_q22);
-    return u && v;
+    return flow_of_axis(angle_q24(lens, track->u0_q8 - lens->cu_q8), angle_q24(lens, track->u1_q8 - lens->cu_q8),
+                        &flow->mx_q16, &flow->dx_q22) &&
+           flow_of_axis(angle_q24(lens, track->v0_q8 - lens->cv_q8), angle_q24(lens, track->v1_q8 - lens->cv_q8),
+                        &flow->my_q16, &flow->dy_q22);
 }
 
 /* Shortest length of a moving flow. */

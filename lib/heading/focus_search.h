@@ -5,15 +5,16 @@
 #include "heading/expansion.h"
 #include "roadpose/heading.h"
 
-/* Chooses the voters among the moving flows. */
-void roadpose_voters_choose(roadpose_heading_t *instance);
+/* Chooses the voters among the moving flows and takes the rotation turn_q24 out of their flow. */
+void roadpose_voters_choose(roadpose_heading_t *instance, const int32_t *turn_q24);
 
-/* Best focus under the rotation best->turn_q24, from `hypotheses` pairs of voters. Returns its score, 0: none; then
- * *best is unchanged. *random is the generator's state. */
+/* Best focus from `hypotheses` pairs of voters into best->focus_q24. Returns its score, 0: none. *random is the
+ * generator's state. */
 uint32_t roadpose_focus_search(roadpose_heading_t *instance, unsigned hypotheses, uint32_t *random,
                                roadpose_expansion_t *best);
 
-/* The same for rotations of up to 1.5 degrees to either side of best->turn_q24, in steps of 0.3 degrees. */
+/* The same for further rotations about y of up to 1.5 degrees to either side, in steps of 0.3 degrees, `hypotheses` pairs
+ * for each; the best one is added to best->turn_q24. */
 uint32_t roadpose_focus_search_turning(roadpose_heading_t *instance, unsigned hypotheses, uint32_t *random,
                                        roadpose_expansion_t *best);
 

@@ -56,14 +56,35 @@ static void take_window(roadpose_tracker_t *tracker, const roadpose_grey_t *imag
     }
 }
 
-/* Sum of absolute differences, at most 49 * 4080 < 2^18. */
-static uint32_t difference(const roadpose_tracker_t *tracker, int32_t left, int32_t top) {
+/* Sum of absolute differences after taking out `brighter`, the difference of the means: exposure may change between the
+ * images. At most 49 * 2 * 4080 < 2^19. */
+static uint32_t difference(const roadpose_tracker_t *tracker, int32_t left, int32_t top, int32_t brighter) {
     uint32_t sum = 0;
     for (int32_t j = 0; j < BLOCK; j++) {
         const uint16_t *window = &tracker->window[top + j][left];
         for (int32_t i = 0; i < BLOCK; i++) {
-            const int32_t d = (int32_t)window[i] - (int32_t)tracker->block[j][i];
+            const int32_t d = (int32_t)window[i] - (int32_t)tracker->block[j][i] - brighter;
             sum += (uint32_t)((d < 0) ? -d : d);
+        }
+    }
+    return sum;
+}
+
+/* Sum of the window's cells in one column of a place: at most 7 * 4080. */
+static int32_t column_sum(const roadpose_tracker_t *tracker, int32_t column, int32_t top) {
+    int32_t sum = 0;
+    for (int32_t j = 0; j < BLOCK; j++) {
+        sum += tracker->window[top + j][column];
+    }
+    return sum;
+}
+
+/* At most 49 * 4080 < 2^18. */
+static int32_t block_sum(const roadpose_tracker_t *tracker) {
+    int32_t sum = 0;
+    for (int32_t j = 0; j < BLOCK; j++) {
+        for (int32_t i = 0; i < BLOCK; i++) {
+            sum += tracker->block[j][i];
         }
     }
     return sum;
@@ -76,26 +97,42 @@ static bool place_inside(const roadpose_grey_t *image, const roadpose_corner_t *
            place->v + end <= image->height_px;
 }
 
+typedef struct {
+    uint32_t difference;
+    roadpose_corner_t place;
+} best_t;
+
+/* Places of one row of the window; the sum of a place slides from one to the next. */
+static void search_row(const roadpose_tracker_t *tracker, const roadpose_grey_t *image, int32_t size, int32_t reach,
+                       const roadpose_corner_t *start, int32_t row, best_t *best) {
+    const int32_t own = block_sum(tracker);
+    int32_t sum = 0;
+    for (int32_t i = 0; i < BLOCK - 1; i++) {
+        sum += column_sum(tracker, i, row);
+    }
+    for (int32_t i = 0; i <= 2 * reach; i++) {
+        const roadpose_corner_t place = {start->u + (i - reach) * size, start->v + (row - reach) * size};
+        sum += column_sum(tracker, i + BLOCK - 1, row);
+        if (place_inside(image, &place, size)) {
+            const uint32_t here = difference(tracker, i, row, (sum - own) / (BLOCK * BLOCK));
+            if (here < best->difference) {
+                *best = (best_t){here, place};
+            }
+        }
+        sum -= column_sum(tracker, i, row);
+    }
+}
+
 /* Best place of the block within reach of *centre, which it becomes. False: no place lies within the image. */
 static bool search(roadpose_tracker_t *tracker, const roadpose_grey_t *image, int32_t size, int32_t reach,
                    roadpose_corner_t *centre) {
-    const roadpose_corner_t start = *centre;
-    uint32_t best = UINT32_MAX;
-    take_window(tracker, image, &start, size, reach);
-    for (int32_t j = -reach; j <= reach; j++) {
-        for (int32_t i = -reach; i <= reach; i++) {
-            const roadpose_corner_t place = {start.u + i * size, start.v + j * size};
-            if (!place_inside(image, &place, size)) {
-                continue;
-            }
-            const uint32_t here = difference(tracker, i + reach, j + reach);
-            if (here < best) {
-                best = here;
-                *centre = place;
-            }
-        }
+    best_t best = {UINT32_MAX, *centre};
+    take_window(tracker, image, centre, size, reach);
+    for (int32_t row = 0; row <= 2 * reach; row++) {
+        search_row(tracker, image, size, reach, centre, row, &best);
     }
-    return best != UINT32_MAX;
+    *centre = best.place;
+    return best.difference != UINT32_MAX;
 }
 
 bool roadpose_block_match(roadpose_tracker_t *tracker, const roadpose_grey_t *previous, const roadpose_grey_t *present,

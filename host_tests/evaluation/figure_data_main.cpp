@@ -33,7 +33,8 @@ void write_free(const roadpose_t& instance, const Input& input, const Path& path
         }
 }
 
-// Method 2's pairs: own slope, middle from the principal point, disparity; pixels.
+// Method 2's pairs as they are drawn, before its first stage keeps the agreeing ones: own slope, middle from the principal
+// point, disparity; pixels.
 void write_cloud(const roadpose_t& instance, const Path& path) {
     std::ofstream file(path);
     const roadpose_cloud_t& cloud = instance.work.cloud;
@@ -72,7 +73,7 @@ void write_all(const Path& out, const recording_t& recording, int index) {
     const Path stem = out + "/" + recording.name + "-" + std::to_string(index) + "-";
     Ours default_settings(recording, settings_of(2, true, 100)), method_2(recording, settings_of(2, false, 100));
     default_settings.process(input.native);
-    method_2.process(input.native);
+    method_2.draw_pairs(input.native);
     write_v_disparity_free(default_settings.instance(), stem + "v_free.txt");
     write_free(default_settings.instance(), input, stem + "free.txt");
     write_cloud(method_2.instance(), stem + "cloud.txt");

@@ -71,14 +71,17 @@ def sweep_panels(results, curves, axes_shown):
             rows[1][column].plot(rolls, scale * (values(found, axis) - truths(found, axis)), ".-", color=colour, linewidth=0.7)
         rows[0][column].set(ylabel=label)
         rows[1][column].axhline(0, color="black", linewidth=0.5)
-        rows[1][column].set(xlabel="true roll, degrees", ylabel="error, " + ("mm" if axis == 2 else "degrees"))
-    rows[0][-1].legend(frameon=False, loc="upper left")
+        rows[0][column].set(xlim=(-21, 21))
+        rows[1][column].set(xlim=(-21, 21), xlabel="true roll, degrees", ylabel="error, " + ("mm" if axis == 2 else "degrees"))
+    handles, titles = rows[0][0].get_legend_handles_labels()
+    figure.legend(handles, titles, frameon=False, loc="outside upper center", ncols=len(titles))
     return figure
 
 
 def sweep_of_method_1(studio, results):
     curves = [("Method 1 alone, v-disparity, no corridor", "v-disparity", "tab:orange"),
-              ("Method 1 alone", "v-disparity-free, corridor", "tab:blue"),
+              ("Method 1 alone, nothing refused", "v-disparity-free, nothing refused", "tab:gray"),
+              ("Method 1 alone", "v-disparity-free, default", "tab:blue"),
               ("Method 1 + refinement", "then refined", "tab:green")]
     return studio.save(sweep_panels(results, curves, (0, 2)), "figure-09")
 

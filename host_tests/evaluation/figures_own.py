@@ -102,17 +102,18 @@ def sensitivity_rows(path):
 
 
 def peers(studio, results):
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
+    figure, panels = plt.subplots(1, 2, figsize=(10.5, 4), layout="constrained", sharey=True)
     shown = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of(SWEEP, name)]
     for axes, (axis, label) in zip(panels, ((0, "pitch, degrees"), (1, "roll, degrees"))):
-        for name in shown:
+        for place, name in enumerate(shown):
             error, ratio = mean_absolute(results.of(SWEEP, name), axis), time_ratio(results, SWEEP, name)
             if error is None:
                 continue
             colour = "tab:green" if name == OURS else {"H": "tab:orange", "R": "tab:blue", "O": "tab:red"}[name[0]]
-            axes.loglog(error, ratio, "o", color=colour)
-            axes.annotate(name, (error, ratio), fontsize=6, xytext=(4, 3), textcoords="offset points")
+            axes.loglog(error, ratio, "o", color=colour, label=f"{place}  {name}" if axis == 0 else None)
+            axes.annotate(str(place), (error, ratio), xytext=(5, 3), textcoords="offset points")
         axes.set(xlabel="mean absolute error, " + label)
-        axes.margins(0.25)
+        axes.margins(0.15)
     panels[0].set_ylabel("time / ours")
+    figure.legend(frameon=False, loc="outside right center", handlelength=1)
     return studio.save(figure, "own-peers")

@@ -1,7 +1,4 @@
 """Figures 2 to 6: tracks, histograms and road profile, the drives, what roll does."""
-import csv
-import glob
-
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -9,6 +6,7 @@ from studio import show_histogram, u_disparity, v_disparity
 
 NO_CORRIDOR = "Method 1 alone, v-disparity, no corridor"
 FREE = "Method 1 alone, v-disparity-free, no corridor"
+SHOWN_PX = 70  # of disparity; there is nothing beyond
 
 
 def focus_of_expansion(truth, rig):
@@ -60,11 +58,12 @@ def profile_row(axes, studio, recording, frame):
     rows = np.arange(rig["height"])
     profile = plane[1] * (rows - rig["cv_px"]) + plane[2]
     shown = (profile > 0) & (profile < 128)
-    axes[3].plot(profile[shown], rows[shown], "--", color="red")
+    axes[3].plot(profile[shown], rows[shown], "--", color="red", linewidth=2)
+    axes[1].set_ylim(SHOWN_PX, 0)
     axes[0].set_ylabel(f"{recording.name} {frame}")
     axes[1].set(ylabel="disparity, px", xlabel="u, px")
     for place in (2, 3):
-        axes[place].set(xlabel="disparity, px", ylabel="v, px")
+        axes[place].set(xlim=(0, SHOWN_PX), xlabel="disparity, px", ylabel="v, px")
 
 
 def road_profiles(studio, scenes):

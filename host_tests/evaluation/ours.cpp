@@ -5,6 +5,10 @@
 
 #include "scores.hpp"
 
+extern "C" {
+#include "frame_work.h"  // the names of the phases
+}
+
 namespace evaluation {
 namespace {
 
@@ -27,6 +31,14 @@ roadpose_settings_t without_corridor(roadpose_settings_t settings, bool keep_obs
     return settings;
 }
 
+// Refuses as little as the library can be told to: what a method would say where it should not be asked.
+roadpose_settings_t accepting_all(roadpose_settings_t settings) {
+    settings.points_min = 16;
+    settings.support_min_permille = 0;
+    settings.range_min_mm = 0;
+    return settings;
+}
+
 }  // namespace
 
 Ours::Ours(const recording_t& recording, const roadpose_settings_t& settings, const Disturbance& disturbance)
@@ -38,16 +50,30 @@ Ours::Ours(const recording_t& recording, const roadpose_settings_t& settings, co
     if (result != ROADPOSE_OK) throw std::runtime_error("roadpose_init says " + std::to_string(result));
 }
 
-roadpose_pose_t Ours::process(const std::vector<std::uint16_t>& native) {
+roadpose_frame_t Ours::view_of(const std::vector<std::uint16_t>& native) const {
     roadpose_frame_t view{};
     view.samples = native.data();
     view.stride_bytes = 2u * rig_.width_px;
     view.width_px = rig_.width_px;
     view.height_px = rig_.height_px;
+    return view;
+}
+
+roadpose_pose_t Ours::process(const std::vector<std::uint16_t>& native) {
+    const roadpose_frame_t view = view_of(native);
     roadpose_pose_t pose{};
     const roadpose_result_t result = roadpose_process(instance_.get(), &view, &pose);
     if (result != ROADPOSE_OK) throw std::runtime_error("roadpose_process says " + std::to_string(result));
     return pose;
+}
+
+void Ours::draw_pairs(const std::vector<std::uint16_t>& native) {
+    const roadpose_frame_t view = view_of(native);
+    roadpose_result_t result = roadpose_frame_begin(instance_.get(), &view);
+    while (result >= ROADPOSE_OK && instance_->phase != PHASE_SLOPE) {
+        result = roadpose_frame_slice(instance_.get());
+        if (result == ROADPOSE_OK) throw std::runtime_error("no pairs in this frame");
+    }
 }
 
 roadpose_settings_t settings_of(int method, bool refine, int points_percent) {
@@ -72,6 +98,7 @@ std::vector<Candidate> our_candidates(const recording_t& recording) {
         candidate(recording, "Method 1 alone, v-disparity, no corridor", without_corridor(settings_of(1, false, 100), true)),
         candidate(recording, "Method 1 alone, v-disparity-free, no corridor",
                   without_corridor(settings_of(1, false, 100), false)),
+        candidate(recording, "Method 1 alone, nothing refused", accepting_all(settings_of(1, false, 100))),
         candidate(recording, "Method 2 alone, no corridor", without_corridor(settings_of(2, false, 100), false)),
     };
     for (const int percent : {50, 25, 10, 5, 1})

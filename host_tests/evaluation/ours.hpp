@@ -19,9 +19,13 @@ class Ours {
 public:
     Ours(const recording_t& recording, const roadpose_settings_t& settings, const Disturbance& disturbance = {});
     roadpose_pose_t process(const std::vector<std::uint16_t>& native);
+    // Goes no further than Method 2's pairs: the frame's later work overwrites them.
+    void draw_pairs(const std::vector<std::uint16_t>& native);
     const roadpose_t& instance() const { return *instance_; }
 
 private:
+    roadpose_frame_t view_of(const std::vector<std::uint16_t>& native) const;
+
     std::unique_ptr<roadpose_t> instance_;
     roadpose_rig_t rig_;
 };

@@ -109,7 +109,7 @@ def recordings_in(folder):
 def main():
     options = arguments()
     studio = Studio(options.programs, options.work, options.out / "figures")
-    results = Results(read([options.work / name for name in ("results.csv", "open3d.csv")]))
+    results = Results(read([options.work / name for name in ("results.csv", "results-large.csv", "open3d.csv")]))
     place = {"recordings": recordings_in(options.full), "fixtures": options.fixtures, "work": options.work, "out": options.out}
     page = Page("Evaluation: the paper's tables and figures, and the peers")
     page.text(texts.INTRODUCTION)

@@ -87,6 +87,7 @@ sets=$(standard_sets)
 step 'Every candidate on every frame'
 # shellcheck disable=SC2086 # one argument a recording is meant
 into "$work/results.csv" "$build/roadpose-evaluate" $sets
+into "$work/results-large.csv" "$build/roadpose-evaluate-large" "$full/wide-rig"
 step 'Open3D on the same frames'
 # shellcheck disable=SC2086
 into "$work/open3d.csv" "$build/python/bin/python" "$here/open3d_peer.py" $sets

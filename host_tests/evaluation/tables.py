@@ -28,13 +28,17 @@ def time_saved(results, share, suffix):
     return 100 * (1 - float(np.median(ratios)))
 
 
+def change(percent):
+    return f"{percent:+.0f} %".replace("-", "−")
+
+
 def table_1(page, results):
     rows = []
     for share, (pitch, roll, saved) in PAPER_TABLE_1.items():
         alone, refined = (score(results.of(SWEEP, f"points {share}{suffix}")) for suffix in ("", " refined"))
         rows.append([f"{share} %", cell(pitch, 3), cell(roll, 3), f"−{saved} %", cell(alone.pitch, 3),
-                     cell(alone.roll, 3), f"{-time_saved(results, share, ''):+.0f} %", cell(refined.pitch, 3),
-                     cell(refined.roll, 3), f"{-time_saved(results, share, ' refined'):+.0f} %"])
+                     cell(alone.roll, 3), change(-time_saved(results, share, "")), cell(refined.pitch, 3),
+                     cell(refined.roll, 3), change(-time_saved(results, share, " refined"))])
     page.table(["points", "paper: pitch °", "roll °", "time", "Method 2 alone: pitch °", "roll °", "time",
                 "with refinement: pitch °", "roll °", "time"], rows)
 

@@ -46,8 +46,8 @@ at the same slope at all levels (dashed: the result). Right: intercepts of the p
 (dashed: the result)."""
 FIGURE_8 = """Figure 8. The cloud of slopes and intercepts of the same pairs, each with its own slope. Colour: disparity. Dashed: the common slope
 that was found."""
-FIGURE_9 = """Figure 9. Roll sweep by Method 1, which takes roll as 0: pitch and height, and their errors. It has an answer near 0 only; at other
-rolls the frame is refused, rather than answered wrongly."""
+FIGURE_9 = """Figure 9. Roll sweep by Method 1, which takes roll as 0: pitch and height, and their errors. By default it has an answer near 0 only
+and refuses the frame at other rolls; grey is what it says when it is told to refuse nothing."""
 FIGURE_10 = "Figure 10. Roll sweep by Method 2, alone and with refinement: roll, pitch and height against the truth, and the errors below."
 FIGURE_11 = """Figure 11. The virtual maps at a roll of 20°. Above: disparity (colour) as seen, turned back, and both with the free map's pixels only.
 Below: their v-disparities. Turned back, the road is a line again."""

@@ -11,6 +11,7 @@
 #include "options.h"
 #include "pace.h"
 #include "pgm.h"
+#include "pictures.h"
 #include "recording.h"
 #include "rig_file.h"
 #include "roadpose/camera_port.h"
@@ -97,6 +98,14 @@ static bool work_off(replay_t *replay, const char *path) {
     return fault(path, "the estimator refuses the frame (result %d)", counters.last_refusal);
 }
 
+/* An overlay of the frame that was worked off last. */
+static bool draw(const replay_t *replay, const char *path) {
+    const picture_t picture = {replay->options.pictures_folder, replay->options.recording, path, replay->camera.samples,
+                               &replay->rig_file.rig, &replay->rig_file.format, &replay->estimator};
+
+    return picture.folder == NULL || pictures_draw(&picture);
+}
+
 /* A CAN cycle, and what is left of the time until the next frame. */
 static void send_and_wait(replay_t *replay, const pace_t *pace, size_t index) {
     const uint64_t time_us = frame_time_us(replay, index);
@@ -124,6 +133,8 @@ static int play(replay_t *replay) {
             !motion_read(&replay->camera.motion, &replay->recording, index) || !expose(replay, index, path) ||
             !work_off(replay, path))
             return EXIT_BAD_RECORDING;
+        if (!draw(replay, path))
+            return EXIT_FAILURE;
         if (fflush(stdout) != 0) {
             (void)fault("standard output", "cannot be written: %s", strerror(errno));
             return EXIT_FAILURE;
@@ -172,6 +183,8 @@ int main(int count, char *arguments[]) {
     case OPTIONS_BAD:
         return EXIT_BAD_ARGUMENTS;
     case OPTIONS_PLAY:
+        if (!pictures_open(replay.options.pictures_folder))
+            return EXIT_BAD_ARGUMENTS;
         break;
     }
     if (set_up(&replay))

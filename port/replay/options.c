@@ -28,6 +28,7 @@ static const char help_text[] =
     "  --speed FACTOR     1 is the pace of the recording, 2 twice as fast: up to 1000; 0 as fast as possible "
     "(default,\n"
     "                     but 1 with --can)\n"
+    "  --pictures DIR     write an overlay of each frame into this folder (roadpose-replay-pictures only)\n"
     "  --help             this text\n"
     "\n"
     "RECORDING is a folder with rig.yml and disparity/*.pgm. pitch + = nose down, roll + = right side down, degrees;\n"
@@ -142,6 +143,8 @@ static bool take_recording(options_t *options, const char *argument) {
 static const char **find_name(options_t *options, const char *argument) {
     if (strcmp(argument, "--can") == 0)
         return &options->can_interface;
+    if (strcmp(argument, "--pictures") == 0)
+        return &options->pictures_folder;
     return strcmp(argument, "--candump") == 0 ? &options->candump_path : NULL;
 }
 

@@ -9,6 +9,7 @@ typedef struct {
     const char *recording;
     const char *can_interface; /* NULL: not asked for */
     const char *candump_path;  /* NULL: not asked for; "-": standard output, then without the CSV */
+    const char *pictures_folder; /* NULL: not asked for */
     uint8_t e2e_profile;       /* of the CAN frames: 1, 2 or 5 */
     bool has_speed;            /* speed_permille was given */
     uint32_t speed_permille;   /* 1000: as recorded; 0: as fast as possible */

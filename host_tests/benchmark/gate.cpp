@@ -68,6 +68,7 @@ void hold_oracle(const PoseErrors& ours, const PoseErrors& oracle, double ratio)
 }
 
 void hold_paper(const Row& row, bool roll) {
+    hold((row.name + ", no accepted frame").c_str(), row.score.errors.count() == 0, 0);
     if (row.score.errors.count() == 0) return;
     hold((row.name + ", pitch, mean absolute error").c_str(), row.score.errors.pitch.mean_absolute(), 0.20);
     if (roll) hold((row.name + ", roll, mean absolute error").c_str(), row.score.errors.roll.mean_absolute(), 0.38);

@@ -10,7 +10,8 @@ typedef enum {
     ROADPOSE_STATUS_NO_DISPARITY = 1,   /* too few samples carry a disparity */
     ROADPOSE_STATUS_NO_ROAD = 2,        /* nothing in the free map is like a road within the mounting limits */
     ROADPOSE_STATUS_LITTLE_SUPPORT = 3, /* a road, but too few points on it, or within too few rows (spread under 10 px) */
-    ROADPOSE_STATUS_SHORT_RANGE = 4,    /* a plane that does not reach far enough ahead: a bonnet, a gap behind a lorry */
+    ROADPOSE_STATUS_SHORT_RANGE = 4,    /* a plane that does not reach far enough ahead, or not twice as far as it begins:
+                                           a bonnet, a gap behind a lorry */
     ROADPOSE_STATUS_POOR_FIT = 5,       /* too many points of the corridor disagree with the plane, or its inner half does */
     ROADPOSE_STATUS_OUTSIDE_LIMITS = 6  /* the plane's pitch, roll or height is outside the mounting limits */
 } roadpose_status_t;

@@ -62,13 +62,13 @@ roadpose_result_t roadpose_init(roadpose_t *instance, const roadpose_rig_t *rig,
 
 /* Begins a frame. *frame is copied; its buffers are borrowed until the frame is finished or cancelled.
  * Returns ROADPOSE_OK, or ROADPOSE_ERROR_NULL, _ORDER (not initialised, or a frame is running), _SIZE, _STRIDE.
- * Cost: clears the histograms' bookkeeping only; constant. */
+ * Constant time: the histograms are cleared in the first slices. */
 roadpose_result_t roadpose_frame_begin(roadpose_t *instance, const roadpose_frame_t *frame);
 
 /* Does one slice of the frame's work. Returns ROADPOSE_MORE while work is left, ROADPOSE_OK when this slice finished
  * the frame, ROADPOSE_ERROR_NULL, or ROADPOSE_ERROR_ORDER when no frame is running.
- * Cost of one slice: at most ROADPOSE_SLICE_SAMPLES samples decoded, or points or histogram cells of the same cost
- * visited; the number of slices of a frame is at most roadpose_slices_max(). */
+ * Cost of one slice: at most ROADPOSE_SLICE_SAMPLES samples decoded or points visited, or one RANSAC hypothesis, which is
+ * a fraction of that (docs/budgets.md has instructions); the number of slices of a frame is at most roadpose_slices_max(). */
 roadpose_result_t roadpose_frame_slice(roadpose_t *instance);
 
 /* Gives the pose of the last finished frame; *pose is the caller's. Returns ROADPOSE_OK, ROADPOSE_ERROR_NULL, or

@@ -8,6 +8,10 @@
  * stretch the range. */
 #define RANGE_SHARE 64
 
+/* The farthest road must be this many times as far as the nearest: over less, a ramp or the bed of a lorry joined to the
+ * road passes for a plane. */
+#define DEPTH_RATIO_MIN 2u
+
 void roadpose_refuse(roadpose_pose_t *pose, roadpose_status_t status) {
     const roadpose_pose_t counts = *pose;
     *pose = (roadpose_pose_t){0};
@@ -64,7 +68,8 @@ static roadpose_status_t judge(const roadpose_pose_t *pose, const roadpose_setti
     if (pose->support_permille < settings->support_min_permille) {
         return ROADPOSE_STATUS_POOR_FIT;
     }
-    if (pose->range_far_mm < (uint32_t)settings->range_min_mm) {
+    if (pose->range_far_mm < (uint32_t)settings->range_min_mm ||
+        pose->range_far_mm / DEPTH_RATIO_MIN < pose->range_near_mm) {
         return ROADPOSE_STATUS_SHORT_RANGE;
     }
     return ROADPOSE_STATUS_OK;

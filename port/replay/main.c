@@ -48,8 +48,10 @@ static void print_pose(roadpose_camera_context_t *camera, uint32_t frame_id, uin
     const csv_yaw_t yaw = {camera->motion.yaw, camera->motion.running};
 
     (void)time_us;
-    if (camera->prints)
+    if (camera->prints) {
+        progress_clear(); /* both may be the same terminal */
         csv_print_frame(stdout, frame_id, pose, has_yaw ? &yaw : NULL);
+    }
     can_bus_pose(&camera->can, pose);
     if (has_yaw)
         can_bus_yaw(&camera->can, yaw.frame.yaw_urad, yaw.frame.status);

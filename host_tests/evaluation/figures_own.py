@@ -6,7 +6,7 @@ import numpy as np
 
 from results import OURS, errors, mean_absolute, time_ratio, worst
 from studio import horizon_row
-from tables import SWEEP, is_peer
+from tables import SWEEP, cell, is_peer
 
 AXES = (("pitch error, degrees", 0, 0.15), ("roll error, degrees", 1, 0.1), ("height error, mm", 2, 8))
 
@@ -96,8 +96,9 @@ def sensitivity_rows(path):
     for kind, label in KINDS:
         for amount, lines in sorted(read_sensitivity(path)[kind].items()):
             accepted = sum(line["status"] == "ok" for line in lines)
-            numbers = [sensitivity_of(lines, key, scale) for key, scale in (("pitch", 1), ("roll", 1), ("height", 1000))]
-            rows.append([label, f"{amount:+g}", f"{accepted} of {len(lines)}", *(f"{number:.{digits}f}" for number, digits in zip(numbers, (4, 4, 2)))])
+            numbers = [cell(sensitivity_of(lines, *axis) if accepted else None, digits)
+                       for axis, digits in ((("pitch", 1), 4), (("roll", 1), 4), (("height", 1000), 2))]
+            rows.append([label, f"{amount:+g}", f"{accepted} of {len(lines)}", *numbers])
     return rows
 
 

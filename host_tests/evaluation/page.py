@@ -120,6 +120,9 @@ def main():
     page.text(texts.VERDICT)
     for part in (paper_tables, paper_figures, real, peers, own):
         part(page, studio, results, place)
+    page.heading("Look at your own recording")
+    page.text(texts.VIEWER)
+    page.code(texts.VIEWER_COMMAND)
     page.write(options.out)
 
 

@@ -56,7 +56,8 @@ def table_2(page, results):
     rows = []
     for name, candidate, paper_name in TABLE_2:
         paper, mine = PAPER_TABLE_2[paper_name], score(results.of(SWEEP, candidate))
-        rows.append([name, cell(mine.roll, 4), cell(mine.pitch, 4), cell(mine.height, 2), *paper,
+        rows.append([name, cell(mine.roll, 4), cell(mine.pitch, 4), cell(mine.height, 2), f"{paper[0]:.2f}",
+                     f"{paper[1]:.2f}", paper[2],
                      ratio(paper[0], mine.roll), ratio(paper[1], mine.pitch), ratio(paper[2], mine.height),
                      f"{mine.accepted} of {mine.frames}"])
     page.table(["", "ours: roll °", "pitch °", "height mm", "paper: roll °", "pitch °", "height mm",

@@ -3,6 +3,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,8 +25,10 @@ namespace {
 std::string fixtures;
 
 std::vector<std::string> frames_of_fixtures() {
-    std::vector<std::string> names;
-    cv::glob(fixtures + "/*.pgm", names, true);
+    std::vector<std::string> all, names;
+    cv::glob(fixtures + "/*.pgm", all, true);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(names),
+                 [](const std::string& name) { return name.find("/disparity/") != std::string::npos; });
     const auto is_grey = [](const std::string& name) { return name.find("/disparity/") == std::string::npos; };
     names.erase(std::remove_if(names.begin(), names.end(), is_grey), names.end());  // left/ holds grey images
     TEST_ASSERT_TRUE_MESSAGE(!names.empty(), "no frames in the fixtures");

@@ -91,6 +91,11 @@ static void test_no_numbers(void) {
     }
 }
 
+static void test_pictures_need_another_build(void) {
+    assert_refused(program_run("--pictures", "folder", "one", NULL), "OpenCV");
+    assert_refused(program_run("one", "--pictures", NULL), "needs a name");
+}
+
 static void test_broken_numbers(void) {
     assert_refused(program_run("--method", "1.5", "one", NULL), "is not a whole number");
     assert_refused(program_run("--points", "0.5", "one", NULL), "is not a whole number");
@@ -163,6 +168,7 @@ int main(void) {
     RUN_TEST(test_a_control_character_does_not_break_the_line);
     RUN_TEST(test_missing_numbers);
     RUN_TEST(test_no_numbers);
+    RUN_TEST(test_pictures_need_another_build);
     RUN_TEST(test_broken_numbers);
     RUN_TEST(test_numbers_out_of_range);
     RUN_TEST(test_every_good_option_plays);

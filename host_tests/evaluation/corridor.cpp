@@ -1,5 +1,7 @@
 #include "corridor.hpp"
 
+#include <cmath>
+
 namespace evaluation {
 
 bool is_in_crop(const recording_rig_t& rig, double x, double disparity) {

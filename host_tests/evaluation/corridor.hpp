@@ -1,7 +1,5 @@
 // What a user of a plain plane fit would cut out before the plane is known: the box that our free map uses too.
 #pragma once
-#include <cmath>
-
 #include "recording_file.h"
 
 namespace evaluation {

@@ -61,7 +61,10 @@ void write_rolls(const std::string& out) {
 int run(int argc, char** argv) {
     const std::string what = argc > 2 ? argv[1] : "";
     if (what == "rolls" && argc == 3) return write_rolls(argv[2]), 0;
-    if (what != "left" || argc != 5) return std::fputs("usage: roadpose-figure-scenes left OUT NAME FRAME | rolls OUT\n", stderr), 2;
+    if (what != "left" || argc != 5) {
+        std::fputs("usage: roadpose-figure-scenes left OUT NAME FRAME | rolls OUT\n", stderr);
+        return 2;
+    }
     return write_left(argv[2], argv[3], std::stoi(argv[4])), 0;
 }
 

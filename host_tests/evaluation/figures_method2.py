@@ -28,7 +28,8 @@ def two_stages(studio):
         axes[1].plot(disparity, intercepts, ".", markersize=3)
         levels = np.array([1, 90])
         axes[1].plot(levels, (levels - c) / b, "--", color="red")
-        axes[1].set(xlim=(0, 90), ylim=(-80, 420), xlabel="disparity of the pair, px", ylabel="intercept from the principal point, px")
+        axes[1].set(xlim=(0, 90), ylim=(-80, 420), xlabel="disparity of the pair, px",
+                    ylabel="intercept from the principal point, px")
         axes[0].set_title(f"roll {float(recording.truth[frame]['roll_deg']):.0f}°: stage 1, slope")
         axes[1].set_title("stage 2, intercept with the common slope")
     return studio.save(figure, "figure-07")
@@ -84,8 +85,9 @@ def sweep_of_method_1(studio, results):
               ("Method 1 alone", "v-disparity-free, default", "tab:blue"),
               ("Method 1 + refinement", "then refined", "tab:green")]
     figure = sweep_panels(results, curves, (0, 2))
-    for axes, linear in zip(figure.axes[2:], (0.05, 5)):  # some errors are a hundred times others
-        axes.set_yscale("symlog", linthresh=linear)
+    for axes, linear, ticks in zip(figure.axes[2:], (0.05, 5), ((0.1, 1, 10), (10, 100, 1000))):
+        axes.set_yscale("symlog", linthresh=linear)  # some errors are a hundred times others
+        axes.set_yticks([*(-tick for tick in ticks), 0, *ticks], [*(f"−{tick}" for tick in ticks), "0", *map(str, ticks)])
     return studio.save(figure, "figure-09")
 
 

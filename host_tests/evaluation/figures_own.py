@@ -45,7 +45,8 @@ def worst_panel(axes, studio, recordings, row):
     axes.set(xlim=(0, rig["width"]), ylim=(rig["height"], 0))
     axes.set_axis_off()
     off = [found - true for found, true in zip(row.pose, row.truth)]
-    axes.set_title(f"{row.recording} {row.frame}: pitch {off[0]:+.3f}°, roll {off[1]:+.3f}°, {1000 * off[2]:+.1f} mm", fontsize=7.5)
+    axes.set_title(f"{row.recording} {row.frame}: pitch {off[0]:+.3f}°, roll {off[1]:+.3f}°, {1000 * off[2]:+.1f} mm",
+                   fontsize=7.5)
 
 
 def worst_frames(studio, results, recordings):
@@ -83,7 +84,8 @@ def sensitivity(studio, path):
         amounts = sorted(curves[kind])
         for key, title, scale, colour in (("pitch", "pitch, °", 1, "tab:blue"), ("roll", "roll, °", 1, "tab:orange"),
                                           ("height", "height, dm", 10, "tab:green")):
-            axes.plot(amounts, [sensitivity_of(curves[kind][amount], key, scale) for amount in amounts], ".-", color=colour, label=title)
+            found = [sensitivity_of(curves[kind][amount], key, scale) for amount in amounts]
+            axes.plot(amounts, found, ".-", color=colour, label=title)
         axes.set(xlabel=label, yscale="log", ylim=(1e-3, 1))
     panels[0].set_ylabel("mean absolute error")
     panels[0].legend(frameon=False)

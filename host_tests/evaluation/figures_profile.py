@@ -44,7 +44,8 @@ def tracks_and_intersections(studio, recording, frame):
     right.plot(crossings[:, 0], crossings[:, 1], ".", color="tab:gray", markersize=1.5)
     for axes in (left, right):
         axes.plot(*focus, "+", color="red", markersize=14, markeredgewidth=2)
-        axes.set(xlim=(0, recording.rig["width"]), ylim=(recording.rig["height"], 0), aspect="equal", xlabel="u, px", ylabel="v, px")
+        axes.set(xlim=(0, recording.rig["width"]), ylim=(recording.rig["height"], 0), aspect="equal", xlabel="u, px",
+                 ylabel="v, px")
     return studio.save(figure, "figure-02")
 
 

@@ -53,8 +53,8 @@ def paper_figures(page, studio, results, place):
     scenes = [(recordings[name], level_frame_of(results, name)) for name in ("level", "traffic", "crown")]
     page.figure(profile.road_profiles(studio, scenes), texts.FIGURE_3)
     page.figure(profile.along_a_drive(studio, results, "level", "figure-04"), texts.FIGURE_4)
-    page.figure(profile.along_a_drive(studio, results, "speed-bump", "figure-05", [("roadpose", "Method 2, refined", "tab:green")]),
-                texts.FIGURE_5)
+    refined = [("roadpose", "Method 2, refined", "tab:green")]
+    page.figure(profile.along_a_drive(studio, results, "speed-bump", "figure-05", refined), texts.FIGURE_5)
     page.figure(profile.what_roll_does(studio), texts.FIGURE_6)
     page.figure(method2.two_stages(studio), texts.FIGURE_7)
     page.figure(method2.clouds(studio), texts.FIGURE_8)

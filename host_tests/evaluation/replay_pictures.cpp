@@ -144,7 +144,8 @@ bool pictures_open(const char* folder) {
 
 bool pictures_draw(const picture_t* picture) {
     roadpose_pose_t pose;
-    if (roadpose_frame_pose(picture->estimator, &pose) != ROADPOSE_OK) return fault(picture->disparity_path, "has no result to draw");
+    if (roadpose_frame_pose(picture->estimator, &pose) != ROADPOSE_OK)
+        return fault(picture->disparity_path, "has no result to draw");
     const std::filesystem::path stem = std::filesystem::path(picture->disparity_path).stem();
     const std::string path = (std::filesystem::path(picture->folder) / (stem.string() + ".png")).string();
     try {

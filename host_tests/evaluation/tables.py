@@ -16,10 +16,6 @@ def triple(a_score):
     return [cell(a_score.pitch, 4), cell(a_score.roll, 4), cell(a_score.height, 2)]
 
 
-def median_time(rows):
-    return float(np.median([row.time_us for row in rows]))
-
-
 def time_saved(results, share, suffix):
     """Percent of the time that all points take; of the whole frame, decoding and histograms included."""
     whole = results.of(SWEEP, "roadpose" if suffix else "Method 2 alone")
@@ -88,7 +84,8 @@ def peers_elsewhere(page, results, names):
         row = [f"`{recording}`"]
         for name in names:
             mine = score(results.of(recording, name))
-            row += [f"{cell(mine.pitch, 3)} / {cell(mine.roll, 3)} / {cell(mine.height, 1)}", largest(results.of(recording, name))]
+            row += [f"{cell(mine.pitch, 3)} / {cell(mine.roll, 3)} / {cell(mine.height, 1)}",
+                    largest(results.of(recording, name))]
         rows.append(row)
     header = ["recording"]
     for name in names:

@@ -10,7 +10,8 @@ def yes(reached):
 def table_2_factor(results):
     mine, paper = score(results.of(SWEEP, OURS)), PAPER_TABLE_2["Method 2"]
     smallest = min(paper[0] / mine.roll, paper[1] / mine.pitch, paper[2] / mine.height)
-    return ["Table 2: each of the paper's figures beaten by at least 4 times", f"smallest factor {smallest:.1f}", yes(smallest >= 4)]
+    return ["Table 2: each of the paper's figures beaten by at least 4 times", f"smallest factor {smallest:.1f}",
+            yes(smallest >= 4)]
 
 
 def table_1_errors(results, suffix, title):
@@ -23,8 +24,8 @@ def table_1_errors(results, suffix, title):
 def ahead_of_peers(results, axis, name, digits, unit):
     mine = mean_absolute(results.of(SWEEP, OURS), axis)
     best, peer = best_peer(results, axis)
-    return [f"Ahead of every peer on the roll sweep: {name}", f"ours {mine:.{digits}f}{unit}, best peer {best:.{digits}f}{unit} ({peer})",
-            yes(mine < best)]
+    return [f"Ahead of every peer on the roll sweep: {name}",
+            f"ours {mine:.{digits}f}{unit}, best peer {best:.{digits}f}{unit} ({peer})", yes(mine < best)]
 
 
 def faster(results):

@@ -17,7 +17,8 @@ BUILDS = ["-O0", "-O2", "-O3", "-Os", SANITIZERS]
 # What processors of ECUs do otherwise than this one: plain char without sign, short enums, 32-bit pointers and long.
 # Debian's gcc-12-multilib alone leaves the kernel's headers where only the 64-bit compiler looks.
 GCC_BUILDS = ["-O2 -funsigned-char -fshort-enums", "-O2 -m32 -idirafter /usr/include/x86_64-linux-gnu"]
-# Played on the fixtures; on real drives, which are long, the defaults and what differs most from them.
+# Long recordings are played with the first two only.
+LONG = 20  # frames
 SETTINGS = ["", "--method 1", "--method 1 --no-refine", "--no-refine", "--corridor 0", "--points 10 --seed 7 --no-refine"]
 
 
@@ -53,15 +54,19 @@ def first_difference(name, left, right):
     return f"{name}: one of them is longer"
 
 
+def settings_of(recording):
+    return SETTINGS if len(list(recording.glob("disparity/*.pgm"))) <= LONG else SETTINGS[:2]
+
+
 def cases_of(fixtures):
     """(recording, settings) of all that is to be played."""
-    cases = [(path.parent, settings) for path in sorted(pathlib.Path(fixtures).glob("*/rig.yml")) for settings in SETTINGS]
+    folders = [fixtures]
     if real := os.environ.get("ROADPOSE_RECORDINGS"):
-        cases += [(path.parent, settings) for path in sorted(pathlib.Path(real).glob("*/rig.yml"))
-                  for settings in SETTINGS[:2]]
+        folders.append(real)
     else:
         print("ROADPOSE_RECORDINGS is not set: only the fixtures are played")
-    return cases
+    recordings = [path.parent for folder in folders for path in sorted(pathlib.Path(folder).glob("*/rig.yml"))]
+    return [(recording, settings) for recording in recordings for settings in settings_of(recording)]
 
 
 def play_all(program, cases):

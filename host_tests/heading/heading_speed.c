@@ -1,5 +1,6 @@
 /* heading_speed RECORDING: time of yaw from 200 tracks beside that of the disparity pipeline, frame after frame in the
- * same run. Prints Markdown; fails where the yaw takes more than a tenth. */
+ * same run. Prints Markdown; fails where the yaw takes more than a tenth (a fifth in
+ * the doubtful frames, which are searched twice). */
 #define _POSIX_C_SOURCE 199309L
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,12 +36,12 @@ static double median(double *values) {
     return values[ROUNDS / 2];
 }
 
-/* 0.3 px of noise, 30 % outliers; rate in deg/s. Returns the median share of the pipeline's time. */
-static double measure(const roadpose_frame_t *frame, double rate_deg_s) {
+/* rate in deg/s. Returns the median share of the pipeline's time. */
+static double measure(const roadpose_frame_t *frame, const char *what, double noise, double outliers, double rate_deg_s) {
     static double pipeline[ROUNDS], yaw_time[ROUNDS], share[ROUNDS];
     static simulated_tracks_t simulated;
     const simulated_mount_t mount = {0, 0, 0.02, 1.5};
-    const simulated_step_t step = {1.2, radians_of(rate_deg_s / 10), 0.3, 0.3, TRACKS};
+    const simulated_step_t step = {1.2, radians_of(rate_deg_s / 10), noise, outliers, TRACKS};
     const int32_t down[3] = {0, 1 << 30, 0};
     random_numbers_t numbers = {7};
     roadpose_pose_t pose;
@@ -58,7 +59,7 @@ static double measure(const roadpose_frame_t *frame, double rate_deg_s) {
         share[i] = yaw_time[i] / pipeline[i];
     }
     const double ratio = median(share);
-    printf("| %s | %s | %.0f | %.0f | %.3f |\n", rate_deg_s == 0 ? "straight" : "turning", roadpose_yaw_status_word(yaw.status),
+    printf("| %s | %s | %.0f | %.0f | %.3f |\n", what, roadpose_yaw_status_word(yaw.status),
            median(pipeline), median(yaw_time), ratio);
     return ratio;
 }
@@ -73,9 +74,12 @@ int main(int count, char *arguments[]) {
         return 2;
     const roadpose_frame_t frame = {samples, 1280, 640, 480, NULL, 0};
     printf("| %d tracks | yaw status | pipeline, us | yaw, us | share |\n|---|---|---|---|---|\n", TRACKS);
-    const double straight = measure(&frame, 0), turning = measure(&frame, 12);
+    const double straight = measure(&frame, "straight, 0.3 px, 30 % outliers", 0.3, 0.3, 0);
+    const double turning = measure(&frame, "12 deg/s, 0.3 px, 30 % outliers", 0.3, 0.3, 12);
+    const double doubtful = measure(&frame, "straight, 0.5 px, 50 % outliers", 0.5, 0.5, 0);
     printf("bytes: heading %zu, tracker %zu\n", sizeof(roadpose_heading_t), sizeof(roadpose_tracker_t));
     recording_close(&recording);
-    puts(straight < 0.1 && turning < 0.1 ? "OK" : "FAIL: over a tenth");
-    return straight < 0.1 && turning < 0.1 ? 0 : 1;
+    const bool cheap = straight < 0.1 && turning < 0.1 && doubtful < 0.2;
+    puts(cheap ? "OK" : "FAIL: over a tenth, or a doubtful frame over a fifth");
+    return cheap ? 0 : 1;
 }

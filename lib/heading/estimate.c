@@ -9,6 +9,9 @@
 
 #define HYPOTHESES 48u
 #define HYPOTHESES_TURNING 4u /* for each of the rotations that are tried */
+#define HYPOTHESES_DOUBTFUL 16u
+#define DOUBTFUL_NOISE_PERCENT 45 /* of a pixel */
+#define DOUBTFUL_SHARE_PERCENT 75u
 #define FOCUS_ROUNDS 2u, 1u /* coarse, fine */
 #define MOTION_ROUNDS 2u, 1u /* and a last one, which tells what the fit leaves open */
 #define LAST_ROUNDS 1u
@@ -120,6 +123,21 @@ static bool fit_free(roadpose_heading_t *instance, bool rate_known, uint32_t sco
     return true;
 }
 
+/* A false focus in a turn is a loose crowd of about half of the tracks. Such a fit is checked by a longer search. */
+static bool is_doubtful(const roadpose_heading_t *instance, const outcome_t *out) {
+    return out->motion.noise_q22 > instance->lens.px_q22 * DOUBTFUL_NOISE_PERCENT / 100 &&
+           instance->round.agreeing * 100u < instance->flows_moving * DOUBTFUL_SHARE_PERCENT;
+}
+
+static void check_doubtful(roadpose_heading_t *instance, uint32_t *random, outcome_t *out) {
+    roadpose_fit_t turning = {.motion = {{0, 0}, {0, 0, 0}},
+                              .noise_q22 = roadpose_noise_max_q22(instance) * START_NOISE_PERCENT / 150};
+    if (roadpose_focus_search_turning(instance, HYPOTHESES_DOUBTFUL, random, &turning.motion) != 0 &&
+        roadpose_fit_rounds(instance, &turning, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS)) {
+        take_cheaper(instance, &out->motion, &turning);
+    }
+}
+
 /* Rotation found beyond the given one, in the order and scale of the unknowns: q28, clamped to 2^27. */
 static void excess_turn(const outcome_t *out, int32_t *turn_q28) {
     static const unsigned AXIS[3] = {0, 2, 1};
@@ -192,8 +210,13 @@ static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *
     const uint32_t score = roadpose_focus_search(instance, HYPOTHESES, &random, &out->focus.motion);
     out->focus.noise_q22 = roadpose_noise_max_q22(instance);
     if (score == 0 || !roadpose_fit_rounds(instance, &out->focus, ROADPOSE_UNKNOWNS_FOCUS, FOCUS_ROUNDS) ||
-        !fit_free(instance, rate_known, score, &random, out) ||
-        !roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
+        !fit_free(instance, rate_known, score, &random, out)) {
+        return false;
+    }
+    if (!rate_known && is_doubtful(instance, out)) {
+        check_doubtful(instance, &random, out);
+    }
+    if (!roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
         return false;
     }
     yaw_direction(normal_q30, along_q16);

@@ -29,6 +29,7 @@ struct Limits {
 const Limits all_limits[] = {
     {"easy", {0.03, none, none, 0.5}, {0.015, none, none, 0.5}, {1.5, none, none, 50}, 0.8, 1.2, none, true},
     {"hard", {0.05, none, none, 0.5}, {0.08, none, none, 0.5}, {5, none, none, 50}, 0.8, none, none, false},
+    {"small-profile", {0.05, none, none, 0.5}, {0.03, none, none, 0.5}, {3, none, none, 50}, 0.8, none, none, false},
     {"without-road", {none, none, none, 0.5}, {none, none, none, 0.5}, {none, none, none, 50}, 0, none, none, false},
     {"street-lidar", {none, 0.15, 0.06, none}, {none, 0.06, 0.13, none}, {none, 40, 8, none}, 0.8, none, none, false},
     {"straight-motion", {none, none, none, none}, {none, none, none, none}, {none, none, none, none}, 1, none, 0.5, false},

@@ -26,10 +26,10 @@
 /* What the fits say; deviations in q22. */
 typedef struct {
     roadpose_fit_t focus;    /* rotation as given by the vehicle, or none */
-    roadpose_fit_t motion;   /* rotation free */
+    roadpose_fit_t motion;   /* with a rotation */
     roadpose_fit_t chosen;
-    int32_t rate_deviation;  /* of the free rotation about the vertical, a frame */
-    int32_t free_deviation;  /* of the focus along the road, rotation free */
+    int32_t rate_deviation;  /* of the fitted rotation about the vertical, a frame */
+    int32_t free_deviation;  /* of the focus along the road, with a rotation */
     int32_t deviation;       /* of the chosen focus along the road */
     uint16_t agreeing;       /* moving tracks that agree with it */
     int32_t left_q16;        /* share of the found rotation that is taken for noise, 0...65536 */
@@ -237,11 +237,11 @@ static int32_t sigma_urad(const outcome_t *out, const int32_t *normal_q30) {
     const int64_t own = out->deviation;
     int64_t square = own * own;
     if (out->left_q16 < 65536) {
-        const int64_t free = out->free_deviation;
+        const int64_t unheld = out->free_deviation;
         const int64_t moved_urad = (int64_t)roadpose_yaw_angle(out->motion.motion.focus_q24, normal_q30) -
                                    roadpose_yaw_angle(out->chosen.motion.focus_q24, normal_q30);
         const int64_t moved = moved_urad * (INT64_C(1) << 22) / MICRO;
-        square = ((free * free > square) ? free * free : square) + moved * moved;
+        square = ((unheld * unheld > square) ? unheld * unheld : square) + moved * moved;
     }
     return roadpose_clamp32(urad_of_q22((int64_t)roadpose_sqrt((uint64_t)square)));
 }

@@ -44,17 +44,18 @@ static void clear_slice(roadpose_t *instance) {
     }
 }
 
-static void decode(roadpose_t *instance, uint16_t grid_row) {
-    roadpose_decode_row(&instance->decoder, &instance->frame, (uint32_t)grid_row * ROADPOSE_ROW_STEP,
-                        instance->grid.columns, instance->row_q8);
+static void begin_row(roadpose_t *instance, uint16_t grid_row, roadpose_row_t *samples) {
+    roadpose_row_begin(samples, &instance->decoder, &instance->frame, (uint32_t)grid_row * ROADPOSE_ROW_STEP,
+                       instance->grid.columns, instance->row_q8);
 }
 
 static void u_disparity_slice(roadpose_t *instance) {
     const uint16_t end = rows_end(instance);
     for (uint16_t row = instance->cursor; row < end; row++) {
-        decode(instance, row);
+        roadpose_row_t samples;
+        begin_row(instance, row, &samples);
         instance->pose.valid_samples +=
-            roadpose_u_disparity_add_row(&instance->work.u_disparity, instance->row_q8, instance->grid.columns);
+            roadpose_u_disparity_add_row(&instance->work.u_disparity, &samples, instance->grid.columns);
     }
     instance->cursor = end;
     if (end < instance->grid.rows) {
@@ -82,6 +83,9 @@ static void free_map_slice(roadpose_t *instance) {
     if (instance->pose.free_samples < SAMPLES_MIN) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
+        const uint32_t total = instance->pose.free_samples;
+        const uint32_t keep = (total < ROADPOSE_MAX_POINTS) ? total : ROADPOSE_MAX_POINTS;
+        roadpose_thinning_begin(&instance->thinning, keep, total);
         roadpose_levels_open(&instance->moments);
         roadpose_enter(instance, PHASE_V_DISPARITY);
     }
@@ -89,12 +93,11 @@ static void free_map_slice(roadpose_t *instance) {
 
 static void v_disparity_slice(roadpose_t *instance) {
     const uint16_t end = rows_end(instance);
-    const int16_t columns = instance->grid.columns;
     for (uint16_t row = instance->cursor; row < end; row++) {
-        decode(instance, row);
-        roadpose_v_disparity_row(&instance->v_disparity, &instance->free_map, instance->row_q8, columns, (int16_t)row);
-        roadpose_points_add_row(&instance->points, instance->row_q8, columns, (int16_t)row,
-                                instance->pose.free_samples, &instance->thinning);
+        roadpose_row_t samples;
+        begin_row(instance, row, &samples);
+        roadpose_v_disparity_row(&instance->v_disparity, &instance->points, &instance->free_map, &samples,
+                                 instance->grid.columns, (int16_t)row, &instance->thinning);
     }
     instance->cursor = end;
     if (end == instance->grid.rows) {

@@ -1,6 +1,7 @@
 #include "method_work.h"
 
 #include "disparity/ground_range.h"
+#include "disparity/road_points.h"
 #include "road/acceptance.h"
 #include "road/plane_ransac.h"
 #include "road/road_profile.h"
@@ -18,7 +19,6 @@ void roadpose_enter(roadpose_t *instance, roadpose_phase_t phase) {
     instance->phase = (uint8_t)phase;
     instance->cursor = 0;
     instance->round = 0;
-    instance->thinning = 0;
     instance->best_score = 0;
 }
 
@@ -65,17 +65,17 @@ static void profile_fit_slice(roadpose_t *instance) {
 static void sort_slice(roadpose_t *instance) {
     const uint32_t next = (uint32_t)instance->cursor + ROADPOSE_SLICE_SAMPLES;
     const uint16_t end = (uint16_t)((next < instance->points.count) ? next : instance->points.count);
-    const uint8_t percent = instance->settings.points_percent;
     const bool counting = instance->phase == (uint8_t)PHASE_SORT_COUNT;
+    if (instance->cursor == 0u) {
+        roadpose_thinning_begin(&instance->thinning, instance->settings.points_percent, 100);
+    }
     if (counting && instance->cursor == 0u) {
         roadpose_cloud_clear(&instance->work.cloud);
     }
     if (counting) {
-        roadpose_cloud_count(&instance->work.cloud, &instance->points, instance->cursor, end, percent,
-                             &instance->thinning);
+        roadpose_cloud_count(&instance->work.cloud, &instance->points, instance->cursor, end, &instance->thinning);
     } else {
-        roadpose_cloud_place(&instance->work.cloud, &instance->points, instance->cursor, end, percent,
-                             &instance->thinning);
+        roadpose_cloud_place(&instance->work.cloud, &instance->points, instance->cursor, end, &instance->thinning);
     }
     instance->cursor = end;
     if (end == instance->points.count) {

@@ -87,8 +87,10 @@ void test_u_disparity() {
         cv::Mat q8;
         disparity.convertTo(q8, CV_16U, 256);
         histogram = roadpose_u_disparity_t{};
-        for (int row = 0; row < q8.rows; ++row)
-            roadpose_u_disparity_add_row(&histogram, q8.ptr<std::uint16_t>(row), static_cast<std::int16_t>(q8.cols));
+        for (int row = 0; row < q8.rows; ++row) {
+            const roadpose_row_t reader{q8.ptr(row), 2, false, 1, UINT16_MAX - 1, 256, 0};
+            roadpose_u_disparity_add_row(&histogram, &reader, static_cast<std::int16_t>(q8.cols));
+        }
         const cv::Mat counts(ROADPOSE_MAX_GRID_COLUMNS, ROADPOSE_MAX_DISPARITY,
                              sizeof(roadpose_count_t) == 1 ? CV_8U : CV_16U, &histogram);
         cv::Mat as_float;

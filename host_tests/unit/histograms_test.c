@@ -1,12 +1,12 @@
 /* u-disparity, free map, v-disparity-free and points against their definitions, computed plainly. */
 #include <string.h>
 
-#include "disparity/road_points.h"
 #include "disparity/u_disparity.h"
 #include "disparity/v_disparity.h"
 #include "lsb.h"
 #include "random_numbers.h"
 #include "roadpose/roadpose.h"
+#include "rows.h"
 
 enum { COLUMNS = 150, ROWS = 200, LEVELS = ROADPOSE_MAX_DISPARITY };
 
@@ -54,7 +54,10 @@ static int counted(int column, int row, int level) { /* column or row -1: all of
 
 static uint32_t fill_u_disparity(void) {
     uint32_t valid = 0;
-    for (int row = 0; row < ROWS; row++) valid += roadpose_u_disparity_add_row(&u_disparity, image[row], COLUMNS);
+    for (int row = 0; row < ROWS; row++) {
+        const roadpose_row_t samples = row_of_q8(image[row]);
+        valid += roadpose_u_disparity_add_row(&u_disparity, &samples, COLUMNS);
+    }
     return valid;
 }
 
@@ -73,8 +76,9 @@ static void test_u_disparity(void) {
 static void test_u_disparity_holds_every_row(void) {
     static uint16_t row[ROADPOSE_MAX_GRID_COLUMNS];
     for (int i = 0; i < ROADPOSE_MAX_GRID_COLUMNS; i++) row[i] = 5 * 256;
+    const roadpose_row_t samples = row_of_q8(row);
     for (int j = 0; j < ROADPOSE_MAX_GRID_ROWS; j++)
-        (void)roadpose_u_disparity_add_row(&u_disparity, row, ROADPOSE_MAX_GRID_COLUMNS);
+        (void)roadpose_u_disparity_add_row(&u_disparity, &samples, ROADPOSE_MAX_GRID_COLUMNS);
     for (int i = 0; i < ROADPOSE_MAX_GRID_COLUMNS; i++)
         TEST_ASSERT_EQUAL_UINT(ROADPOSE_MAX_GRID_ROWS, u_disparity.count[i][5]);
 }
@@ -144,26 +148,42 @@ static void test_free_map_obstacles(void) {
     }
 }
 
+static void keep_every_fifth(void) {
+    for (int row = 0; row < ROWS; row++)
+        for (int i = 0; i < COLUMNS; i++)
+            if ((row + i) % 5) image[row][i] = 0;
+}
+
 static void test_v_disparity_free(void) {
-    (void)make_free_map();
+    roadpose_thinning_t thinning;
+    keep_every_fifth();
+    const uint32_t total = make_free_map();
+    TEST_ASSERT_TRUE(total > 500 && total <= ROADPOSE_MAX_POINTS); /* none is thinned out */
+    roadpose_thinning_begin(&thinning, total, total);
+    roadpose_points_clear(&points);
     for (int16_t row = 0; row < ROWS; row++) {
-        uint16_t copy[COLUMNS];
-        memcpy(copy, image[row], sizeof copy);
-        roadpose_v_disparity_row(&v_disparity, &free_map, copy, COLUMNS, row);
+        const roadpose_row_t samples = row_of_q8(image[row]);
+        roadpose_v_disparity_row(&v_disparity, &points, &free_map, &samples, COLUMNS, row, &thinning);
         int expected[LEVELS] = {0};
+        unsigned point = points.row_start[row];
         for (int i = 0; i < COLUMNS; i++) {
-            const bool counts = image[row][i] && is_free(i, image[row][i] / 256);
-            TEST_ASSERT_EQUAL_UINT16(counts ? image[row][i] : 0, copy[i]);
-            expected[image[row][i] / 256] += counts;
+            if (!image[row][i] || !is_free(i, image[row][i] / 256)) continue;
+            TEST_ASSERT_EQUAL(i, points.column[point]);
+            TEST_ASSERT_EQUAL_UINT16(image[row][i], points.disparity_q8[point]);
+            expected[image[row][i] / 256]++;
+            point++;
         }
+        TEST_ASSERT_EQUAL_UINT(point, points.row_start[row + 1]);
         for (int level = 0; level < LEVELS; level++) TEST_ASSERT_EQUAL_UINT(expected[level], v_disparity.count[row][level]);
     }
+    TEST_ASSERT_EQUAL_UINT32(total, points.count);
 }
 
 static uint32_t fill_points(uint32_t total) {
-    uint32_t thinning = 0;
+    roadpose_thinning_t thinning;
+    roadpose_thinning_begin(&thinning, total < ROADPOSE_MAX_POINTS ? total : ROADPOSE_MAX_POINTS, total);
     roadpose_points_clear(&points);
-    for (int16_t row = 0; row < ROWS; row++) roadpose_points_add_row(&points, image[row], COLUMNS, row, total, &thinning);
+    for (int16_t row = 0; row < ROWS; row++) add_points(&points, image[row], COLUMNS, row, &thinning);
     return points.count;
 }
 
@@ -189,9 +209,7 @@ static uint32_t samples_in_image(void) {
 }
 
 static void test_points_without_thinning(void) {
-    for (int row = 0; row < ROWS; row++)
-        for (int i = 0; i < COLUMNS; i++)
-            if ((row + i) % 5) image[row][i] = 0;
+    keep_every_fifth();
     const uint32_t total = samples_in_image();
     TEST_ASSERT_TRUE(total > 1000 && total < ROADPOSE_MAX_POINTS);
     TEST_ASSERT_EQUAL_UINT32(total, fill_points(total));
@@ -221,8 +239,10 @@ static void test_points_when_the_total_was_wrong(void) {
 static void test_thinning_is_exact(void) {
     for (uint32_t total = 1; total < 400; total += 7)
         for (uint32_t keep = 0; keep <= total; keep++) {
-            uint32_t error = 0, kept = 0;
-            for (uint32_t i = 0; i < total; i++) kept += roadpose_thin(&error, keep, total);
+            roadpose_thinning_t thinning;
+            uint32_t kept = 0;
+            roadpose_thinning_begin(&thinning, keep, total);
+            for (uint32_t i = 0; i < total; i++) kept += roadpose_thin(&thinning);
             TEST_ASSERT_EQUAL_UINT32(keep, kept);
         }
 }

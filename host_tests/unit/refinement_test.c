@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "disparity/road_points.h"
 #include "lsb.h"
 #include "random_numbers.h"
 #include "roadpose/roadpose.h"
+#include "rows.h"
 
 enum { COLUMNS = 160, ROWS = 240, LAST_ROUND = ROADPOSE_REFINE_ROUNDS - 1 };
 
@@ -31,8 +31,9 @@ void tearDown(void) {}
 static double truth_at(int column, int row) { return plane_a * (column - 80) + plane_b * (row - 120) + plane_c; }
 
 static void paint(double noise, int strays) {
-    uint32_t thinning = 0;
+    roadpose_thinning_t thinning;
     uint16_t row_q8[COLUMNS];
+    roadpose_thinning_begin(&thinning, ROADPOSE_MAX_POINTS, COLUMNS * ROWS);
     roadpose_points_clear(&points);
     for (int16_t row = 0; row < ROWS; row++) {
         for (int i = 0; i < COLUMNS; i++) {
@@ -41,7 +42,7 @@ static void paint(double noise, int strays) {
             const bool kept = d > 0.1 && d < ROADPOSE_MAX_DISPARITY && random_between(&numbers, 0, 5) == 0;
             row_q8[i] = (uint16_t)(kept ? 256 * d : 0);
         }
-        roadpose_points_add_row(&points, row_q8, COLUMNS, row, COLUMNS * ROWS, &thinning);
+        add_points(&points, row_q8, COLUMNS, row, &thinning);
     }
 }
 
@@ -80,7 +81,8 @@ static sums_t reference_sums(double band_q8, double unevenness) {
             const double x = roadpose_point_column(points.column[k]) - 80, y = row - 120;
             const double p = predicted_q8((int)x, (int)y), r = points.disparity_q8[k] - p;
             if (p < 1 || p >= ROADPOSE_MAX_DISPARITY * 256.0) continue;
-            if (fabs(r) > band_q8 + floor(p * unevenness) || fabs(r) > 1023) {
+            const double wider = moments.level[(int)p / 256].uneven ? floor(p * unevenness) : 0;
+            if (fabs(r) > band_q8 + wider || fabs(r) > 1023) {
                 s.off++;
                 continue;
             }
@@ -114,6 +116,12 @@ static void test_sums(void) {
     }
 }
 
+/* k = B / h on the pixel grid; unevenness / h = unevenness * k / B */
+static double share_of(double unevenness_m) {
+    const double a = plane_a / ROADPOSE_COLUMN_STEP, b = plane_b / ROADPOSE_ROW_STEP, c = plane_c / 500;
+    return unevenness_m * sqrt(a * a + b * b + c * c) / 0.3;
+}
+
 /* Points on road with a wider band where the road may be uneven: the share is right to 1/2^16, so the count may differ
  * by the few points that lie on the very edge of the band. */
 static void test_unevenness_widens_the_band(void) {
@@ -124,12 +132,42 @@ static void test_unevenness_widens_the_band(void) {
     paint(1.5, 0);
     roadpose_levels_open(&moments);
     look(LAST_ROUND);
-    /* k = B / h on the pixel grid; unevenness / h = unevenness * k / B */
-    const double a = plane_a / ROADPOSE_COLUMN_STEP, b = plane_b / ROADPOSE_ROW_STEP, c = plane_c / 500;
-    const double share = 0.05 * sqrt(a * a + b * b + c * c) / 0.3;
-    const sums_t s = reference_sums(153, share), narrow = reference_sums(153, 0);
+    const sums_t s = reference_sums(153, share_of(0.05)), narrow = reference_sums(153, 0);
     ASSERT_LSB(0.002 * s.on_road + 3, s.on_road, moments.on_road, "points on the road");
     TEST_ASSERT_TRUE(s.on_road > narrow.on_road * 1.05);
+}
+
+/* A road as flat as its noise keeps the narrow band: what lies beside it are strays. One that is rougher widens it. */
+static int uneven_levels_of(double noise, int *seen) {
+    int uneven = 0;
+    *seen = 0;
+    random_start(0);
+    paint(noise, 5);
+    roadpose_levels_open(&moments);
+    look(LAST_ROUND);
+    roadpose_levels_judge(&moments, &settings);
+    for (int level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
+        *seen += moments.level[level].near > 4;
+        uneven += moments.level[level].near > 4 && moments.level[level].uneven;
+    }
+    return uneven;
+}
+
+static void test_only_an_uneven_road_widens_the_band(void) {
+    settings.corridor_half_width_mm = 0;
+    settings.corridor_range_mm = 0;
+    settings.unevenness_mm = 200;
+    for (int n = 0; n < 10; n++) {
+        int seen;
+        const int flat = uneven_levels_of(0.1, &seen);
+        TEST_ASSERT_TRUE(flat * 10 < seen);
+        for (int level = 0; level < ROADPOSE_MAX_DISPARITY; level++) moments.level[level].open = true;
+        look(LAST_ROUND);
+        const sums_t s = reference_sums(153, share_of(0.2));
+        ASSERT_LSB(0.002 * s.on_road + 3, s.on_road, moments.on_road, "points on the road");
+        const int rough = uneven_levels_of(0.6, &seen);
+        TEST_ASSERT_TRUE(rough * 2 > seen);
+    }
 }
 
 /* Sideways along the road from the point below the camera: full weight within 7/8 of the half width, none beyond 9/8. */
@@ -241,6 +279,7 @@ int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_sums);
     RUN_TEST(test_unevenness_widens_the_band);
+    RUN_TEST(test_only_an_uneven_road_widens_the_band);
     RUN_TEST(test_corridor_weights);
     RUN_TEST(test_step);
     RUN_TEST(test_all_rounds);

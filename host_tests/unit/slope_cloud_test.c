@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "disparity/road_points.h"
 #include "lsb.h"
 #include "random_numbers.h"
 #include "road/plane_ransac.h"
 #include "roadpose/roadpose.h"
+#include "rows.h"
 
 enum { COLUMNS = 160, ROWS = 240 };
 
@@ -38,8 +38,9 @@ static void random_plane(void) {
 
 /* A road with noise; `strays` of a hundred points are anything. */
 static void paint(double noise, int strays) {
-    uint32_t thinning = 0;
+    roadpose_thinning_t thinning;
     uint16_t row_q8[COLUMNS];
+    roadpose_thinning_begin(&thinning, ROADPOSE_MAX_POINTS, COLUMNS * ROWS);
     roadpose_points_clear(&points);
     for (int16_t row = 0; row < ROWS; row++) {
         for (int i = 0; i < COLUMNS; i++) {
@@ -48,18 +49,19 @@ static void paint(double noise, int strays) {
             const bool kept = d > 1 && d < ROADPOSE_MAX_DISPARITY - 1 && random_between(&numbers, 0, 5) == 0;
             row_q8[i] = (uint16_t)(kept ? 256 * d : 0);
         }
-        roadpose_points_add_row(&points, row_q8, COLUMNS, row, COLUMNS * ROWS, &thinning);
+        add_points(&points, row_q8, COLUMNS, row, &thinning);
     }
 }
 
 /* The passes may be cut anywhere. */
 static void pass(bool counting, uint8_t percent) {
-    uint32_t thinning = 0;
+    roadpose_thinning_t thinning;
+    roadpose_thinning_begin(&thinning, percent, 100);
     for (uint16_t first = 0, last; first < points.count; first = last) {
         last = (uint16_t)(first + random_between(&numbers, 1, 500));
         if (last > points.count) last = points.count;
-        if (counting) roadpose_cloud_count(&cloud, &points, first, last, percent, &thinning);
-        else roadpose_cloud_place(&cloud, &points, first, last, percent, &thinning);
+        if (counting) roadpose_cloud_count(&cloud, &points, first, last, &thinning);
+        else roadpose_cloud_place(&cloud, &points, first, last, &thinning);
     }
 }
 

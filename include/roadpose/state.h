@@ -14,8 +14,11 @@
 /* How to read one sample, prepared from the format once. All masks are in place within the sample. */
 typedef struct {
     bool swap_bytes;          /* the samples' byte order is not the processor's */
+    bool is_plain;            /* a disparity is what lies in one range of samples, whose bits all count */
     uint16_t value_mask;      /* disparity field */
     uint32_t value_scale;     /* (s & value_mask) * value_scale / 256 is the disparity in Q8 */
+    uint32_t plain_first;     /* plain: no match where s - plain_first > plain_span, unsigned */
+    uint32_t plain_span;
     uint16_t sign_mask;       /* no match where it is set */
     uint16_t invalid_first;
     int32_t invalid_span;     /* no match where (uint16_t)(s - invalid_first) <= invalid_span; -1: never */
@@ -66,6 +69,13 @@ typedef struct {
     uint16_t disparity_q8[ROADPOSE_MAX_POINTS];
 } roadpose_points_t;
 
+/* Spreads `keep` choices evenly over `total` candidates. */
+typedef struct {
+    uint32_t keep;
+    uint32_t total;
+    uint32_t error;
+} roadpose_thinning_t;
+
 #define ROADPOSE_SORT_LEVELS (ROADPOSE_MAX_DISPARITY * 8) /* an eighth of a pixel each */
 
 /* Method 2, stage 1: pairs of points of one disparity level. */
@@ -87,6 +97,7 @@ typedef struct {
 /* What lies near the plane at one distance, that is, where the plane's disparity has this whole part. */
 typedef struct {
     bool open;     /* the points at this distance take part in the least squares */
+    bool uneven;   /* and of those too that noise alone does not explain */
     uint16_t near; /* points within 4 px of the plane, */
     uint16_t on;   /* of those the ones within the noise band, */
     int32_t r;     /* and the sum of their residuals, Q8 */
@@ -116,7 +127,7 @@ typedef struct {
     uint8_t round;      /* of a phase that repeats */
     uint16_t cursor;    /* next row, column, point or hypothesis of the phase */
     uint32_t random;    /* state of the linear congruential generator */
-    uint32_t thinning;  /* error term that spreads the points evenly */
+    roadpose_thinning_t thinning; /* of the points of the running phase */
     int32_t best_score;
     int32_t slope_q16;  /* Method 2: grid rows per grid column along a disparity level */
     bool roll_observed;

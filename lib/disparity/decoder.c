@@ -1,7 +1,6 @@
 #include "disparity/decoder.h"
 
 #include <stddef.h>
-#include <string.h>
 
 #define OFFSET_MAX_MILLIPX 16000
 #define SIGN_BIT UINT16_C(0x8000)
@@ -45,6 +44,49 @@ static void prepare_invalid(roadpose_decoder_t *decoder, const roadpose_disparit
     }
 }
 
+/* Q8 disparity of a sample whose bits all count. sample < 2^16 and scale <= 2^16: below 2^32 with the half. */
+static int32_t plain_q8(const roadpose_decoder_t *decoder, uint32_t sample) {
+    return (int32_t)((sample * decoder->value_scale + 128u) >> 8) + decoder->offset_q8;
+}
+
+/* First sample below `end` whose disparity reaches q8, else `end`: it never falls from one sample to the next. */
+static uint32_t first_reaching(const roadpose_decoder_t *decoder, uint32_t end, int32_t q8) {
+    uint32_t low = 0;
+    uint32_t high = end;
+    while (low < high) {
+        const uint32_t middle = (low + high) / 2u;
+        if (plain_q8(decoder, middle) >= q8) {
+            high = middle;
+        } else {
+            low = middle + 1u;
+        }
+    }
+    return low;
+}
+
+/* Nearly every format is plain: samples above the field are no match, and the range of "no match" takes off one end of
+ * those that carry a disparity. Then one comparison tells a match. */
+static void prepare_plain(roadpose_decoder_t *decoder) {
+    const uint32_t invalid_first = decoder->invalid_first;
+    const uint32_t invalid_end = (uint32_t)((int32_t)invalid_first + decoder->invalid_span + 1); /* exclusive, <= 2^16 */
+    const uint32_t field_end = (uint32_t)decoder->value_mask + 1u;
+    const bool above_is_invalid = field_end > UINT16_MAX || (invalid_first <= field_end && invalid_end > UINT16_MAX);
+    uint32_t first = first_reaching(decoder, field_end, 1);
+    uint32_t end = first_reaching(decoder, field_end, ROADPOSE_MAX_DISPARITY * 256);
+    const bool cuts_first = invalid_first <= first;
+    const bool cuts_end = invalid_end >= end;
+    if (cuts_first && invalid_end > first) {
+        first = invalid_end;
+    } else if (cuts_end && invalid_first < end) {
+        end = invalid_first;
+    }
+    const bool has_low_bits = (decoder->value_mask & 1u) != 0u;
+    decoder->is_plain = has_low_bits && above_is_invalid && (cuts_first || cuts_end) && decoder->sign_mask == 0u &&
+                        decoder->confidence_min == 0u;
+    decoder->plain_first = (first < end) ? first : UINT32_C(1) << 16; /* none: beyond every sample */
+    decoder->plain_span = (first < end) ? end - first - 1u : 0u;
+}
+
 bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_disparity_format_t *format) {
     if (!fields_fit(format)) {
         return false;
@@ -65,13 +107,8 @@ bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_dispar
     /* |offset| <= 16 000, so the product is below 2^23; the half rounds to the nearest 1/256 px. */
     const int32_t half = (format->offset_millipx >= 0) ? 500 : -500;
     decoder->offset_q8 = (format->offset_millipx * 256 + half) / 1000;
+    prepare_plain(decoder);
     return true;
-}
-
-static inline uint16_t sample_at(const uint8_t *bytes, bool swap_bytes) {
-    uint16_t sample;
-    memcpy(&sample, bytes, sizeof sample); /* any alignment; compilers make one load of it */
-    return swap_bytes ? (uint16_t)((uint32_t)sample >> 8 | (uint32_t)sample << 8) : sample;
 }
 
 /* Sign and confidence inside the sample; formats without either skip the test. */
@@ -89,14 +126,13 @@ static inline uint16_t disparity_q8(const roadpose_decoder_t *decoder, uint32_t 
     return (uint16_t)((in_range && !no_match) ? q8 : 0);
 }
 
-/* Inlined with constants for the flags: a loop of its own for each kind of format. */
-static inline void decode(const roadpose_decoder_t *decoder, const uint8_t *bytes, int16_t columns, bool swap_bytes,
-                          bool test_doubt, uint16_t *out_q8) {
-    const roadpose_decoder_t d = *decoder; /* a copy that out_q8 cannot alias: the loop keeps it in registers */
-    uint16_t *const end = out_q8 + columns;
+/* The copy of the decoder cannot be aliased by out_q8: the loop keeps it in registers. */
+static void decode(const roadpose_decoder_t *decoder, const uint8_t *bytes, int16_t columns, uint16_t *out_q8) {
+    const roadpose_decoder_t d = *decoder;
+    const uint16_t *const end = out_q8 + columns;
     for (; out_q8 != end; out_q8++) {
-        const uint32_t sample = sample_at(bytes, swap_bytes);
-        *out_q8 = (test_doubt && is_doubtful(&d, sample)) ? 0u : disparity_q8(&d, sample);
+        const uint32_t sample = roadpose_sample_at(bytes, d.swap_bytes);
+        *out_q8 = is_doubtful(&d, sample) ? 0u : disparity_q8(&d, sample);
         bytes += 2 * ROADPOSE_COLUMN_STEP;
     }
 }
@@ -104,25 +140,45 @@ static inline void decode(const roadpose_decoder_t *decoder, const uint8_t *byte
 static void drop_unconfident(const roadpose_decoder_t *decoder, const uint8_t *bytes, int16_t columns,
                              uint16_t *out_q8) {
     for (int16_t i = 0; i < columns; i++) {
-        if (sample_at(bytes, decoder->swap_bytes) < decoder->image_confidence_min) {
+        if (roadpose_sample_at(bytes, decoder->swap_bytes) < decoder->image_confidence_min) {
             out_q8[i] = 0;
         }
         bytes += 2 * ROADPOSE_COLUMN_STEP;
     }
 }
 
-void roadpose_decode_row(const roadpose_decoder_t *decoder, const roadpose_frame_t *frame, uint32_t row,
-                         int16_t columns, uint16_t *out_q8) {
+/* Rounding and offset in one addend, which may be negative and wrap: the sum of a sample that counts is positive. */
+static void read_in_place(roadpose_row_t *samples, const roadpose_decoder_t *decoder, const uint8_t *bytes) {
+    samples->next = bytes;
+    samples->step_bytes = 2 * ROADPOSE_COLUMN_STEP;
+    samples->swap_bytes = decoder->swap_bytes;
+    samples->first = decoder->plain_first;
+    samples->span = decoder->plain_span;
+    samples->scale = decoder->value_scale;
+    samples->addend = 128u + (uint32_t)decoder->offset_q8 * 256u;
+}
+
+static void read_decoded(roadpose_row_t *samples, const uint16_t *row_q8) {
+    samples->next = (const uint8_t *)row_q8;
+    samples->step_bytes = sizeof row_q8[0];
+    samples->swap_bytes = false;
+    samples->first = 1;
+    samples->span = UINT16_MAX - 1u;
+    samples->scale = 256;
+    samples->addend = 0;
+}
+
+void roadpose_row_begin(roadpose_row_t *samples, const roadpose_decoder_t *decoder, const roadpose_frame_t *frame,
+                        uint32_t row, int16_t columns, uint16_t *out_q8) {
     const uint8_t *bytes = (const uint8_t *)frame->samples + (size_t)row * frame->stride_bytes;
-    if (decoder->sign_mask != 0u || decoder->confidence_min != 0u) {
-        decode(decoder, bytes, columns, decoder->swap_bytes, true, out_q8);
-    } else if (decoder->swap_bytes) {
-        decode(decoder, bytes, columns, true, false, out_q8);
-    } else {
-        decode(decoder, bytes, columns, false, false, out_q8);
+    if (decoder->is_plain && frame->confidence == NULL) {
+        read_in_place(samples, decoder, bytes);
+        return;
     }
+    decode(decoder, bytes, columns, out_q8);
     if (frame->confidence != NULL) {
         bytes = (const uint8_t *)frame->confidence + (size_t)row * frame->confidence_stride_bytes;
         drop_unconfident(decoder, bytes, columns, out_q8);
     }
+    read_decoded(samples, out_q8);
 }

@@ -4,13 +4,20 @@
 
 #include "roadpose/state.h"
 
-/* Spreads `keep` choices evenly over `total` candidates (Bresenham's error term). keep <= total < 2^24. */
-static inline bool roadpose_thin(uint32_t *error, uint32_t keep, uint32_t total) {
-    *error += keep;
-    if (*error < total) {
+/* Begins anew. keep <= total < 2^24. */
+static inline void roadpose_thinning_begin(roadpose_thinning_t *thinning, uint32_t keep, uint32_t total) {
+    thinning->keep = keep;
+    thinning->total = total;
+    thinning->error = 0;
+}
+
+/* Is the next candidate chosen? (Bresenham's error term.) */
+static inline bool roadpose_thin(roadpose_thinning_t *thinning) {
+    thinning->error += thinning->keep;
+    if (thinning->error < thinning->total) {
         return false;
     }
-    *error -= total;
+    thinning->error -= thinning->total;
     return true;
 }
 
@@ -28,11 +35,23 @@ static inline int32_t roadpose_point_weight(uint16_t entry) {
 
 void roadpose_points_clear(roadpose_points_t *points);
 
-/* Appends the free samples of row `row`; rows come in rising order. total: free samples of the whole frame. */
-void roadpose_points_add_row(roadpose_points_t *points, const uint16_t *row_q8, int16_t columns, int16_t row,
-                             uint32_t total, uint32_t *thinning);
+/* Writes a sample to place n, where there is one, and returns the next place; rows come in rising order. */
+static inline uint32_t roadpose_points_put(roadpose_points_t *points, uint32_t n, int16_t column, uint32_t disparity_q8) {
+    if (n == ROADPOSE_MAX_POINTS) {
+        return n;
+    }
+    points->column[n] = (uint16_t)column;
+    points->disparity_q8[n] = (uint16_t)disparity_q8;
+    return n + 1u;
+}
 
-/* Grid row of a point. index < points->count. At most 10 rounds of bisection over `rows` rows. */
+/* Ends a row: the points are those before place n. */
+static inline void roadpose_points_end_row(roadpose_points_t *points, uint32_t n, int16_t row) {
+    points->count = (uint16_t)n;
+    points->row_start[row + 1] = (uint16_t)n;
+}
+
+/* Grid row of a point. index < points->count. 11 rounds of bisection over 1024 rows. */
 int16_t roadpose_points_row(const roadpose_points_t *points, int16_t rows, uint16_t index);
 
 #endif

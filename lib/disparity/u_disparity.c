@@ -12,17 +12,24 @@
 /* 1 / (cos 25 deg * cos 15 deg) = 1.142: how much roll and pitch lengthen the rows of one level. */
 #define TILT_PERCENT 115
 
-uint32_t roadpose_u_disparity_add_row(roadpose_u_disparity_t *histogram, const uint16_t *row_q8, int16_t columns) {
+/* Inlined with a constant for swap_bytes: a loop of its own for each byte order. */
+static inline uint32_t add_row(roadpose_u_disparity_t *histogram, roadpose_row_t samples, bool swap_bytes,
+                               int16_t columns) {
     uint32_t valid = 0;
     for (int16_t i = 0; i < columns; i++) {
-        const unsigned disparity = row_q8[i];
-        if (disparity != 0u) {
-            roadpose_count_t *cell = &histogram->count[i][disparity >> 8];
+        uint32_t disparity_q16;
+        if (roadpose_row_take(&samples, swap_bytes, &disparity_q16)) {
+            roadpose_count_t *cell = &histogram->count[i][disparity_q16 >> 16];
             *cell = (roadpose_count_t)(*cell + 1u); /* at most once for each of <= 255 (65535) grid rows */
             valid++;
         }
     }
     return valid;
+}
+
+uint32_t roadpose_u_disparity_add_row(roadpose_u_disparity_t *histogram, const roadpose_row_t *samples, int16_t columns) {
+    return samples->swap_bytes ? add_row(histogram, *samples, true, columns)
+                               : add_row(histogram, *samples, false, columns);
 }
 
 void roadpose_free_rule(roadpose_free_rule_t *rule, const roadpose_grid_t *grid, const roadpose_settings_t *settings) {

@@ -3,10 +3,10 @@
 #ifndef ROADPOSE_U_DISPARITY_H
 #define ROADPOSE_U_DISPARITY_H
 
-#include "roadpose/state.h"
+#include "disparity/decoder.h"
 
-/* Counts one decoded row; returns how many samples carried a disparity. Each cell grows by at most one a call. */
-uint32_t roadpose_u_disparity_add_row(roadpose_u_disparity_t *histogram, const uint16_t *row_q8, int16_t columns);
+/* Counts one row; returns how many samples carried a disparity. Each cell grows by at most one a call. */
+uint32_t roadpose_u_disparity_add_row(roadpose_u_disparity_t *histogram, const roadpose_row_t *samples, int16_t columns);
 
 /* Where road is looked for: what the settings mean for the cells of the u-disparity. */
 typedef struct {

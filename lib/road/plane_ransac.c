@@ -7,6 +7,9 @@
 #define SLOPE_TOLERANCE_Q16 (3 * 65536 / ROADPOSE_ROW_STEP)
 /* A pair agrees with an intercept line when its disparity is at most one pixel off it. */
 #define LEVEL_TOLERANCE_Q8 256
+/* Pairs that are scored before the question whether the hypothesis can still win. */
+#define PAIRS_A_LOOK 64
+#define PAIR_SCORE_MAX 3
 /* Two pairs whose intercepts are closer than this many pixel rows draw no line. */
 #define INTERCEPTS_APART_PX 16
 
@@ -16,6 +19,34 @@ static inline int32_t slope_error_q16(const roadpose_cloud_t *cloud, uint16_t k,
     return (error < 0) ? -error : error;
 }
 
+/* A close hit counts more, so that the middle of a crowd wins over its edge. */
+static inline int32_t pair_score(int32_t error, int32_t tolerance) {
+    return ((error <= tolerance) ? 1 : 0) + ((error <= tolerance / 3) ? PAIR_SCORE_MAX - 1 : 0);
+}
+
+/* End of the pairs to score next; `first` itself where a full score for all that are left would not win. */
+static uint16_t next_look(uint16_t first, uint16_t pairs, int32_t score, int32_t best_score) {
+    const int32_t left = pairs - first;
+    if (score + left * PAIR_SCORE_MAX <= best_score) {
+        return first;
+    }
+    return (uint16_t)((left < PAIRS_A_LOOK) ? pairs : first + PAIRS_A_LOOK);
+}
+
+/* Score of a slope, <= 1024 pairs * 3; less than it deserves where it cannot win. */
+static int32_t score_slope(const roadpose_cloud_t *cloud, int32_t slope_q16, int32_t best_score) {
+    int32_t score = 0;
+    uint16_t k = 0;
+    uint16_t end = next_look(0, cloud->pairs, score, best_score);
+    while (k < end) {
+        for (; k < end; k++) {
+            score += pair_score(slope_error_q16(cloud, k, slope_q16), SLOPE_TOLERANCE_Q16);
+        }
+        end = next_look(k, cloud->pairs, score, best_score);
+    }
+    return score;
+}
+
 void roadpose_slope_try(const roadpose_cloud_t *cloud, const roadpose_plane_box_t *box, uint32_t *random,
                         int32_t *best_q16, int32_t *best_score) {
     const uint32_t drawn = roadpose_lcg_below(random, cloud->pairs); /* pairs >= 1; dx is never 0 */
@@ -23,13 +54,7 @@ void roadpose_slope_try(const roadpose_cloud_t *cloud, const roadpose_plane_box_
     if (slope_q16 > box->slope_max_q16 || slope_q16 < -box->slope_max_q16) {
         return;
     }
-    int32_t score = 0; /* <= 1024 pairs * 3 */
-    for (uint16_t k = 0; k < cloud->pairs; k++) {
-        const int32_t error = slope_error_q16(cloud, k, slope_q16);
-        /* a close hit counts more, so that the middle of a crowd wins over its edge */
-        score += (error <= SLOPE_TOLERANCE_Q16) ? 1 : 0;
-        score += (error <= SLOPE_TOLERANCE_Q16 / 3) ? 2 : 0;
-    }
+    const int32_t score = score_slope(cloud, slope_q16, *best_score);
     if (score > *best_score) {
         *best_score = score;
         *best_q16 = slope_q16;
@@ -94,12 +119,17 @@ static void add_roll(roadpose_plane_t *plane, int32_t slope_q16) {
     plane->a_q24 = roadpose_clamp32(-roadpose_floor_shift((int64_t)plane->b_q24 * slope_q16, 16));
 }
 
-static int32_t score_intercepts(const roadpose_cloud_t *cloud, const roadpose_plane_t *plane) {
+/* Like score_slope(). Errors are saturated: what is beyond the tolerance is all the same. */
+static int32_t score_intercepts(const roadpose_cloud_t *cloud, const roadpose_plane_t *plane, int32_t best_score) {
     int32_t score = 0;
-    for (uint16_t k = 0; k < cloud->pairs; k++) {
-        const int64_t error = roadpose_abs(level_error_q8(cloud, k, plane));
-        score += (error <= LEVEL_TOLERANCE_Q8) ? 1 : 0;
-        score += (error <= LEVEL_TOLERANCE_Q8 / 3) ? 2 : 0;
+    uint16_t k = 0;
+    uint16_t end = next_look(0, cloud->pairs, score, best_score);
+    while (k < end) {
+        for (; k < end; k++) {
+            const int64_t error = roadpose_abs(level_error_q8(cloud, k, plane));
+            score += pair_score((int32_t)roadpose_clamp(error, 0, LEVEL_TOLERANCE_Q8 + 1), LEVEL_TOLERANCE_Q8);
+        }
+        end = next_look(k, cloud->pairs, score, best_score);
     }
     return score;
 }
@@ -112,7 +142,7 @@ void roadpose_intercept_try(const roadpose_cloud_t *cloud, const roadpose_plane_
     if (!line_through(cloud, first, second, &plane) || !roadpose_profile_in_box(&plane, box)) {
         return;
     }
-    const int32_t score = score_intercepts(cloud, &plane);
+    const int32_t score = score_intercepts(cloud, &plane, *best_score);
     if (score > *best_score) {
         *best_score = score;
         add_roll(&plane, slope_q16);

@@ -21,6 +21,10 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
 #define POINTS_PLENTY 4096u
 #define SPARSE_ROW_STEP 8u
 
+/* The road is uneven at a distance where more than this share of its points near the plane, and more than one, leave the
+ * noise band. Fewer are mismatches, and a wider band would only let those in. */
+#define UNEVEN_SHARE 16
+
 #define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
 #define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
 
@@ -86,6 +90,7 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
 void roadpose_levels_open(roadpose_moments_t *moments) {
     for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
         moments->level[level].open = true;
+        moments->level[level].uneven = true;
     }
 }
 
@@ -95,6 +100,7 @@ void roadpose_levels_judge(roadpose_moments_t *moments, const roadpose_settings_
     for (unsigned i = 0; i < ROADPOSE_MAX_DISPARITY; i++) {
         roadpose_level_t *level = &moments->level[i];
         const int32_t limit = level->on * offset_max_q8;
+        level->uneven = (level->near - level->on - 1) * UNEVEN_SHARE > level->near;
         level->open = 2 * level->on >= level->near && level->r <= limit && level->r >= -limit;
     }
 }
@@ -185,7 +191,8 @@ static inline bool sort_point(roadpose_moments_t *moments, const roadpose_road_r
             return false;
         }
         /* p < 2^16 and unevenness < 2^16: the product fits 32 bits */
-        if (distance <= rule->noise_q8 + (int32_t)((p * rule->unevenness_q16) >> 16)) {
+        if (distance <= rule->noise_q8 ||
+            (level->uneven && distance <= rule->noise_q8 + (int32_t)((p * rule->unevenness_q16) >> 16))) {
             return true;
         }
     }

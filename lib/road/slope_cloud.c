@@ -24,9 +24,9 @@ static unsigned sort_level(uint16_t disparity_q8) {
 }
 
 void roadpose_cloud_count(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
-                          uint8_t percent, uint32_t *thinning) {
+                          roadpose_thinning_t *thinning) {
     for (uint16_t i = first; i < last; i++) {
-        if (roadpose_thin(thinning, percent, 100)) {
+        if (roadpose_thin(thinning)) {
             cloud->bucket[sort_level(points->disparity_q8[i]) + 1u]++;
             cloud->used++;
         }
@@ -63,9 +63,9 @@ void roadpose_cloud_places(roadpose_cloud_t *cloud) {
 }
 
 void roadpose_cloud_place(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
-                          uint8_t percent, uint32_t *thinning) {
+                          roadpose_thinning_t *thinning) {
     for (uint16_t i = first; i < last; i++) {
-        if (roadpose_thin(thinning, percent, 100)) {
+        if (roadpose_thin(thinning)) {
             uint16_t *place = &cloud->bucket[sort_level(points->disparity_q8[i])];
             cloud->order[*place] = i;
             *place = (uint16_t)(*place + 1u);

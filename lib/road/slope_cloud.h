@@ -10,13 +10,14 @@
 
 void roadpose_cloud_clear(roadpose_cloud_t *cloud);
 
-/* Sorting by disparity, in three steps: count the points first...last - 1 (of which `percent` are used, evenly),
- * then turn counts into places once, then place the same points. *thinning starts at 0 for both passes. */
+/* Sorting by disparity, in three steps: count the points first...last - 1 (of which *thinning chooses some),
+ * then turn counts into places once, then place the same points. *thinning begins anew
+ * for both passes. */
 void roadpose_cloud_count(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
-                          uint8_t percent, uint32_t *thinning);
+                          roadpose_thinning_t *thinning);
 void roadpose_cloud_places(roadpose_cloud_t *cloud);
 void roadpose_cloud_place(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
-                          uint8_t percent, uint32_t *thinning);
+                          roadpose_thinning_t *thinning);
 
 /* Draws two points of nearly the same disparity; keeps them as a pair where they lie far enough apart sideways. */
 void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,

@@ -109,16 +109,15 @@ static void v_disparity_slice(roadpose_t *instance) {
 static bool look_at_points(roadpose_t *instance, uint8_t round) {
     const uint16_t step = roadpose_refine_row_step(round, instance->points.count);
     const uint16_t end = at_most(instance->cursor + (uint32_t)step * rows_a_slice(instance), instance->grid.rows);
-    roadpose_road_rule_t rule;
-    if (!roadpose_road_rule(&rule, &instance->plane, &instance->grid, &instance->settings, round)) {
-        return false;
-    }
     if (instance->cursor == 0u) {
-        roadpose_moments_clear(&instance->moments);
+        if (!roadpose_road_rule(&instance->rule, &instance->plane, &instance->grid, &instance->settings, round)) {
+            return false;
+        }
+        roadpose_moments_begin(&instance->moments, &instance->rule);
     }
     for (uint16_t row = instance->cursor; row < end; row = (uint16_t)(row + step)) {
-        roadpose_moments_add_row(&instance->moments, &instance->points, &instance->plane, &rule, &instance->grid,
-                                 (int16_t)row);
+        roadpose_moments_add_row(&instance->moments, &instance->points, &instance->plane, &instance->rule,
+                                 &instance->grid, (int16_t)row);
     }
     instance->cursor = end;
     return true;

@@ -34,9 +34,7 @@ static void method_done(roadpose_t *instance, bool roll_observed) {
 }
 
 static void profile_slice(roadpose_t *instance) {
-    roadpose_plane_box_t box;
-    roadpose_plane_box(&box, &instance->grid, &instance->settings);
-    roadpose_profile_try(&instance->v_disparity, &instance->grid, &box, &instance->random, &instance->plane,
+    roadpose_profile_try(&instance->v_disparity, &instance->grid, &instance->box, &instance->random, &instance->plane,
                          &instance->best_score);
     instance->cursor++;
     if (instance->cursor < ROADPOSE_PROFILE_HYPOTHESES) {
@@ -99,9 +97,7 @@ static void pairs_slice(roadpose_t *instance) {
 }
 
 static void slope_slice(roadpose_t *instance) {
-    roadpose_plane_box_t box;
-    roadpose_plane_box(&box, &instance->grid, &instance->settings);
-    roadpose_slope_try(&instance->work.cloud, &box, &instance->random, &instance->slope_q16, &instance->best_score);
+    roadpose_slope_try(&instance->work.cloud, &instance->box, &instance->random, &instance->slope_q16, &instance->best_score);
     instance->cursor++;
     if (instance->cursor < ROADPOSE_SLOPE_HYPOTHESES) {
         return;
@@ -114,9 +110,7 @@ static void slope_slice(roadpose_t *instance) {
 }
 
 static void slope_fit_slice(roadpose_t *instance) {
-    roadpose_plane_box_t box;
-    roadpose_plane_box(&box, &instance->grid, &instance->settings);
-    if (roadpose_slope_fit(&instance->work.cloud, &box, &instance->slope_q16) < PAIRS_MIN) {
+    if (roadpose_slope_fit(&instance->work.cloud, &instance->box, &instance->slope_q16) < PAIRS_MIN) {
         roadpose_finish(instance, ROADPOSE_STATUS_NO_ROAD);
     } else {
         roadpose_enter(instance, PHASE_INTERCEPT);
@@ -124,9 +118,7 @@ static void slope_fit_slice(roadpose_t *instance) {
 }
 
 static void intercept_slice(roadpose_t *instance) {
-    roadpose_plane_box_t box;
-    roadpose_plane_box(&box, &instance->grid, &instance->settings);
-    roadpose_intercept_try(&instance->work.cloud, &box, instance->slope_q16, &instance->random, &instance->plane,
+    roadpose_intercept_try(&instance->work.cloud, &instance->box, instance->slope_q16, &instance->random, &instance->plane,
                            &instance->best_score);
     instance->cursor++;
     if (instance->cursor < ROADPOSE_INTERCEPT_HYPOTHESES) {

@@ -6,6 +6,7 @@
 #include "disparity/u_disparity.h"
 #include "frame_work.h"
 #include "method_work.h"
+#include "road/ground_plane.h"
 
 /* "ROAD": tells an initialised instance from memory with other content. */
 #define READY_MARK UINT32_C(0x524F4144)
@@ -62,6 +63,7 @@ roadpose_result_t roadpose_init(roadpose_t *instance, const roadpose_rig_t *rig,
     instance->height_px = rig->height_px;
     instance->has_confidence_image = format->has_confidence_image;
     prepare_grid(&instance->grid, rig);
+    roadpose_plane_box(&instance->box, &instance->grid, &instance->settings);
     roadpose_enter(instance, PHASE_IDLE);
     return ROADPOSE_OK;
 }

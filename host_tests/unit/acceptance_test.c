@@ -31,7 +31,7 @@ void setUp(void) {
     memset(&pose, 0, sizeof pose);
     for (int level = 6; level <= 50; level++) {
         moments.level[level].open = true;
-        moments.level[level].near = moments.level[level].on = 3000 / 45;
+        moments.level[level].on = 3000 / 45;
     }
     moments.on_road = 3000 / 45 * 45;
     moments.n = 2 * moments.on_road;
@@ -99,8 +99,8 @@ static void test_too_many_that_disagree(void) {
 }
 
 static void test_road_that_ends_too_near(void) {
-    for (int level = 0; level < 40; level++) moments.level[level].near = moments.level[level].on = 0;
-    for (int level = 40; level <= 50; level++) moments.level[level].near = moments.level[level].on = 280;
+    for (int level = 0; level < 40; level++) moments.level[level].on = 0;
+    for (int level = 40; level <= 50; level++) moments.level[level].on = 280;
     moments.on_road = 280 * 11;
     moments.n = 2 * moments.on_road;
     expect_refused(ROADPOSE_STATUS_SHORT_RANGE);

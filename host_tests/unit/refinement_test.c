@@ -59,7 +59,7 @@ static void look(uint8_t round) {
     roadpose_road_rule_t rule;
     TEST_ASSERT_TRUE(roadpose_road_rule(&rule, &plane, &grid, &settings, round));
     rule.mark_corridor = true;
-    roadpose_moments_clear(&moments);
+    roadpose_moments_begin(&moments, &rule);
     for (int16_t row = 0; row < ROWS; row++) roadpose_moments_add_row(&moments, &points, &plane, &rule, &grid, row);
 }
 
@@ -81,7 +81,8 @@ static sums_t reference_sums(double band_q8, double unevenness) {
             const double x = roadpose_point_column(points.column[k]) - 80, y = row - 120;
             const double p = predicted_q8((int)x, (int)y), r = points.disparity_q8[k] - p;
             if (p < 1 || p >= ROADPOSE_MAX_DISPARITY * 256.0) continue;
-            const double wider = moments.level[(int)p / 256].uneven ? floor(p * unevenness) : 0;
+            const double middle = floor(p / 256) * 256 + 128; /* of the distance: it has one band */
+            const double wider = moments.level[(int)p / 256].uneven ? floor(middle * unevenness) : 0;
             if (fabs(r) > band_q8 + wider || fabs(r) > 1023) {
                 s.off++;
                 continue;
@@ -147,8 +148,9 @@ static int uneven_levels_of(double noise, int *seen) {
     look(LAST_ROUND);
     roadpose_levels_judge(&moments, &settings);
     for (int level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
-        *seen += moments.level[level].near > 4;
-        uneven += moments.level[level].near > 4 && moments.level[level].uneven;
+        const int near = moments.level[level].on + moments.level[level].off;
+        *seen += near > 4;
+        uneven += near > 4 && moments.level[level].uneven;
     }
     return uneven;
 }

@@ -94,13 +94,36 @@ typedef struct {
     int32_t intercept_q9[ROADPOSE_MAX_PAIRS]; /* y - s x of the pair's middle, 2^-9 grid rows, once s is known */
 } roadpose_cloud_t;
 
+/* Box around the mounting limits in terms of the plane, for quick rejection of candidates: a little wider than the
+ * limits, which the finished pose is held against. */
+typedef struct {
+    int32_t b_min_q24; /* disparity per grid row */
+    int32_t b_max_q24;
+    int64_t c_min_rows_q16; /* c / b: grid rows from the horizon to the principal point */
+    int64_t c_max_rows_q16;
+    int32_t slope_max_q16; /* |a / b|, grid rows per grid column */
+} roadpose_plane_box_t;
+
+/* Which points count around the present plane. */
+typedef struct {
+    int32_t range_min_q8;    /* the plane's disparity must be at least this */
+    int32_t du_q12;          /* pixel column of grid column_0 minus cu */
+    int32_t centre_q12;      /* corridor: lateral position of its middle, in baselines */
+    int32_t half_outer_q12;  /* half width in baselines where points still count half */
+    int32_t half_inner_q12;  /* and where they count full */
+    int32_t noise_q8;        /* half width of the band that noise needs, pixels */
+    uint32_t unevenness_q16; /* what an uneven road adds to it, as a share of the disparity */
+    bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */
+} roadpose_road_rule_t;
+
 /* What lies near the plane at one distance, that is, where the plane's disparity has this whole part. */
 typedef struct {
-    bool open;     /* the points at this distance take part in the least squares */
-    bool uneven;   /* and of those too that noise alone does not explain */
-    uint16_t near; /* points within 4 px of the plane, */
-    uint16_t on;   /* of those the ones within the noise band, */
-    int32_t r;     /* and the sum of their residuals, Q8 */
+    bool open;        /* the points at this distance take part in the least squares */
+    bool uneven;      /* and of those too that noise alone does not explain */
+    int16_t band_q8;  /* half width of the band in which they do; -1: closed */
+    uint16_t on;      /* points within the noise band around the plane, */
+    uint16_t off;     /* points beyond it, within 4 px, */
+    int32_t r;        /* and the sum of the residuals of those within, Q8 */
 } roadpose_level_t;
 
 /* Sums of a least-squares step over the road points, and what the acceptance needs. */
@@ -118,6 +141,7 @@ typedef struct {
     roadpose_settings_t settings;
     roadpose_grid_t grid;
     roadpose_decoder_t decoder;
+    roadpose_plane_box_t box;
     uint16_t width_px;
     uint16_t height_px;
     bool has_confidence_image;
@@ -133,6 +157,7 @@ typedef struct {
     bool roll_observed;
     roadpose_plane_t plane;
     roadpose_plane_t noise_plane; /* before the rounds that follow the uneven road */
+    roadpose_road_rule_t rule;    /* of the running look */
     roadpose_moments_t moments;
     uint16_t row_q8[ROADPOSE_MAX_GRID_COLUMNS]; /* one decoded row */
     roadpose_free_map_t free_map;

@@ -29,8 +29,8 @@ static inline int32_t roadpose_point_column(uint16_t entry) {
     return (int32_t)(entry & ROADPOSE_POINT_COLUMN);
 }
 
-static inline int32_t roadpose_point_weight(uint16_t entry) {
-    return (int32_t)(entry >> ROADPOSE_POINT_WEIGHT_SHIFT);
+static inline uint32_t roadpose_point_weight(uint16_t entry) {
+    return (uint32_t)entry >> ROADPOSE_POINT_WEIGHT_SHIFT;
 }
 
 void roadpose_points_clear(roadpose_points_t *points);

@@ -21,16 +21,7 @@ void roadpose_plane_pose(const roadpose_pixel_plane_t *plane, const roadpose_gri
 /* True where pitch, roll and height lie within the mounting limits. */
 bool roadpose_pose_within_limits(const roadpose_pose_t *pose, const roadpose_settings_t *settings);
 
-/* Box around the mounting limits in terms of the plane, for quick rejection of candidates: a little wider than the
- * limits, which the finished pose is held against. Prepared once for each phase that draws candidates. */
-typedef struct {
-    int32_t b_min_q24; /* disparity per grid row */
-    int32_t b_max_q24;
-    int64_t c_min_rows_q16; /* c / b: grid rows from the horizon to the principal point */
-    int64_t c_max_rows_q16;
-    int32_t slope_max_q16; /* |a / b|, grid rows per grid column */
-} roadpose_plane_box_t;
-
+/* Prepares the box. */
 void roadpose_plane_box(roadpose_plane_box_t *box, const roadpose_grid_t *grid, const roadpose_settings_t *settings);
 
 /* Is d = b y + c, with b and c of *plane, within the box? */

@@ -25,7 +25,6 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
  * noise band. Fewer are mismatches, and a wider band would only let those in. */
 #define UNEVEN_SHARE 16
 
-#define LIMIT_Q8 (ROADPOSE_MAX_DISPARITY * 256)
 #define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
 
 /* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
@@ -100,18 +99,29 @@ void roadpose_levels_judge(roadpose_moments_t *moments, const roadpose_settings_
     for (unsigned i = 0; i < ROADPOSE_MAX_DISPARITY; i++) {
         roadpose_level_t *level = &moments->level[i];
         const int32_t limit = level->on * offset_max_q8;
-        level->uneven = (level->near - level->on - 1) * UNEVEN_SHARE > level->near;
-        level->open = 2 * level->on >= level->near && level->r <= limit && level->r >= -limit;
+        level->uneven = (level->off - 1) * UNEVEN_SHARE > level->on + level->off;
+        level->open = level->on >= level->off && level->r <= limit && level->r >= -limit;
     }
 }
 
-void roadpose_moments_clear(roadpose_moments_t *moments) {
+/* Half width of the band in the middle of a level: level < 2^8 and unevenness < 2^16, so below 2^32. */
+static int16_t band_of(const roadpose_level_t *level, uint32_t index, const roadpose_road_rule_t *rule) {
+    if (!level->open) {
+        return -1;
+    }
+    const uint32_t wider_q8 = level->uneven ? (((index * 256u + 128u) * rule->unevenness_q16) >> 16) : 0u;
+    return (int16_t)roadpose_clamp((int64_t)rule->noise_q8 + wider_q8, 0, BAND_LIMIT_Q8);
+}
+
+void roadpose_moments_begin(roadpose_moments_t *moments, const roadpose_road_rule_t *rule) {
     const size_t sums = offsetof(roadpose_moments_t, level);
     memset(moments, 0, sums);
-    for (unsigned level = 0; level < ROADPOSE_MAX_DISPARITY; level++) {
-        moments->level[level].near = 0;
-        moments->level[level].on = 0;
-        moments->level[level].r = 0;
+    for (uint32_t i = 0; i < ROADPOSE_MAX_DISPARITY; i++) {
+        roadpose_level_t *level = &moments->level[i];
+        level->band_q8 = band_of(level, i, rule);
+        level->on = 0;
+        level->off = 0;
+        level->r = 0;
     }
 }
 
@@ -128,105 +138,119 @@ static int32_t corridor_weight(const roadpose_road_rule_t *rule, int32_t lateral
 /* Sums over one row in which y is constant. At most 1024 points a row, weight <= 2, |x| <= 1024, |r| < 1024:
  * n < 2^12, x < 2^21, r < 2^21, xr <= 2^31 - 2^21, and xx, rr <= 2^31 unsigned. */
 typedef struct {
-    int32_t n, x, r, xr;
+    uint32_t on_road_n; /* points, times 2^16, and their weights n: one addition for both */
+    int32_t x, r, xr;
     uint32_t xx, rr;
-    uint32_t on_road;
 } row_sums_t;
 
 static void row_sums_flush(roadpose_moments_t *moments, const row_sums_t *sums, int32_t y) {
-    moments->n += sums->n;
+    const int32_t n = (int32_t)(sums->on_road_n & UINT16_MAX);
+    moments->n += n;
     moments->x += sums->x;
     moments->xx += sums->xx;
     moments->r += sums->r;
     moments->xr += sums->xr;
     moments->rr += sums->rr;
-    moments->y += (int64_t)sums->n * y;
-    moments->yy += (int64_t)sums->n * (y * y); /* |y| <= 2^10 */
+    moments->y += (int64_t)n * y;
+    moments->yy += (int64_t)n * (y * y); /* |y| <= 2^10 */
     moments->xy += (int64_t)sums->x * y;
     moments->yr += (int64_t)sums->r * y;
-    moments->on_road += sums->on_road;
+    moments->on_road += sums->on_road_n >> 16;
 }
 
-static inline void add_point(row_sums_t *sums, int32_t weight, int32_t x, int32_t r) {
-    const int32_t wx = weight * x;
-    const int32_t wr = weight * r;
-    sums->n += weight;
+static inline void add_point(row_sums_t *sums, uint32_t weight, int32_t x, int32_t r) {
+    const int32_t wx = (int32_t)weight * x;
+    const int32_t wr = (int32_t)weight * r;
+    sums->on_road_n += 65536u + weight;
     sums->x += wx;
     sums->r += wr;
     sums->xr += wx * r;
     sums->xx += (uint32_t)(wx * x);
     sums->rr += (uint32_t)(wr * r);
-    sums->on_road++;
+}
+
+/* The plane along one row: its disparity in column x is base + a x. */
+typedef struct {
+    int64_t base_q24; /* half an LSB of Q8 is in it: it rounds */
+    int32_t a_q24;
+    int32_t column_0;
+} row_plane_t;
+
+/* Disparity of the plane, Q8. False beyond the levels or above the horizon: the plane is too near to be measured, or
+ * behind the camera. |a x| < 2^31 * 2^10. */
+static inline bool plane_at(const row_plane_t *line, int32_t x, uint32_t *p_q8) {
+    const uint64_t p_q24 = (uint64_t)(line->base_q24 + (int64_t)line->a_q24 * x); /* negative: beyond the limit */
+    *p_q8 = (uint32_t)(p_q24 >> 16);
+    return p_q24 < LIMIT_Q24;
 }
 
 /* Weighs the points of a row by the corridor. Points where the plane is too far, above its horizon, or nearer than can
- * be measured get none. p: disparity of the plane, Q24; see roadpose_moments_add_row(). */
-static void mark_row(roadpose_points_t *points, const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
-                     const roadpose_grid_t *grid, int64_t base_q24, int16_t row) {
+ * be measured get none. */
+static void mark_row(roadpose_points_t *points, const roadpose_road_rule_t *rule, const row_plane_t *line, int16_t row) {
     for (uint16_t i = points->row_start[row]; i < points->row_start[row + 1]; i++) {
         const int32_t column = roadpose_point_column(points->column[i]);
-        const int32_t x = column - grid->column_0;
-        const int64_t p_q8 = roadpose_floor_shift(base_q24 + (int64_t)plane->a_q24 * x, 16);
+        const int32_t x = column - line->column_0;
+        uint32_t p_q8;
         int32_t weight = 0;
-        if (p_q8 >= rule->range_min_q8 && p_q8 < LIMIT_Q8) {
+        if (plane_at(line, x, &p_q8) && (int32_t)p_q8 >= rule->range_min_q8) {
             weight = corridor_weight(rule, x * (ROADPOSE_COLUMN_STEP * 4096) + rule->du_q12, (int32_t)p_q8);
         }
         points->column[i] = (uint16_t)(column | (weight << ROADPOSE_POINT_WEIGHT_SHIFT));
     }
 }
 
-/* Where a point of the corridor lies: counts it, and returns whether it takes part in the least squares.
- * r: residual; p: the plane's disparity there, Q8, within the histogram's levels. */
-static inline bool sort_point(roadpose_moments_t *moments, const roadpose_road_rule_t *rule, int32_t r, uint32_t p) {
-    const int32_t distance = (r < 0) ? -r : r;
-    if (distance <= BAND_LIMIT_Q8) {
-        roadpose_level_t *level = &moments->level[p >> 8];
-        level->near++;
-        if (distance <= rule->noise_q8) {
-            level->on++;
-            level->r += r;
-        }
-        if (!level->open) {
-            moments->uneven++;
-            return false;
-        }
-        /* p < 2^16 and unevenness < 2^16: the product fits 32 bits */
-        if (distance <= rule->noise_q8 ||
-            (level->uneven && distance <= rule->noise_q8 + (int32_t)((p * rule->unevenness_q16) >> 16))) {
-            return true;
-        }
-    }
-    if (r > 0) {
+static void count_beside(roadpose_moments_t *moments, int32_t r, bool is_closed) {
+    if (is_closed) {
+        moments->uneven++;
+    } else if (r > 0) {
         moments->above++;
     } else {
         moments->below++;
     }
+}
+
+/* Where a point of the corridor lies: counts it, and returns whether it takes part in the least squares.
+ * r: residual; p: the plane's disparity there, Q8, within the histogram's levels. */
+static inline bool sort_point(roadpose_moments_t *moments, int32_t noise_q8, int32_t r, uint32_t p_q8) {
+    roadpose_level_t *level = &moments->level[p_q8 >> 8];
+    const int32_t distance = (r < 0) ? -r : r;
+    if (distance <= noise_q8) {
+        level->on++;
+        level->r += r;
+    } else if (distance <= BAND_LIMIT_Q8) {
+        level->off++;
+    } else {
+        count_beside(moments, r, false);
+        return false;
+    }
+    if (distance <= level->band_q8) {
+        return true;
+    }
+    count_beside(moments, r, level->band_q8 < 0);
     return false;
 }
 
 void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *points, const roadpose_plane_t *plane,
                               const roadpose_road_rule_t *rule, const roadpose_grid_t *grid, int16_t row) {
     const int32_t y = row - grid->row_0;
-    /* < 2^31 * 2^10 + 2^40; half an LSB of Q8 rounds the disparities below */
-    const int64_t base_q24 = (int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15);
-    const int32_t a_q24 = plane->a_q24;
-    const int32_t column_0 = grid->column_0;
-    row_sums_t sums = {0, 0, 0, 0, 0, 0, 0};
+    /* < 2^31 * 2^10 + 2^40 */
+    const row_plane_t line = {(int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15), plane->a_q24, grid->column_0};
+    const int32_t noise_q8 = rule->noise_q8;
+    row_sums_t sums = {0, 0, 0, 0, 0, 0};
     if (rule->mark_corridor) {
-        mark_row(points, plane, rule, grid, base_q24, row);
+        mark_row(points, rule, &line, row);
     }
     const uint16_t end = points->row_start[row + 1];
     for (uint16_t i = points->row_start[row]; i < end; i++) {
         const uint16_t entry = points->column[i];
-        const int32_t weight = roadpose_point_weight(entry);
-        const int32_t x = roadpose_point_column(entry) - column_0;
-        const uint64_t p_q24 = (uint64_t)(base_q24 + (int64_t)a_q24 * x); /* negative: beyond the limit */
-        if (weight == 0 || p_q24 >= LIMIT_Q24) {
-            continue; /* the plane may have moved since the mark: the limit guards the levels */
+        const uint32_t weight = roadpose_point_weight(entry);
+        const int32_t x = roadpose_point_column(entry) - line.column_0;
+        uint32_t p_q8;
+        if (weight == 0u || !plane_at(&line, x, &p_q8)) {
+            continue; /* the plane may have moved since the mark: its limit guards the levels */
         }
-        const uint32_t p = (uint32_t)(p_q24 >> 16);
-        const int32_t r = (int32_t)points->disparity_q8[i] - (int32_t)p;
-        if (sort_point(moments, rule, r, p)) {
+        const int32_t r = (int32_t)points->disparity_q8[i] - (int32_t)p_q8;
+        if (sort_point(moments, noise_q8, r, p_q8)) {
             add_point(&sums, weight, x, r);
         }
     }

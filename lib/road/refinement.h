@@ -16,19 +16,8 @@
 #define ROADPOSE_LOOK_WIDE 8
 #define ROADPOSE_LOOK_INNER 9
 
-/* Which points count around the present plane. */
-typedef struct {
-    int32_t range_min_q8;    /* the plane's disparity must be at least this */
-    int32_t du_q12;          /* pixel column of grid column_0 minus cu */
-    int32_t centre_q12;      /* corridor: lateral position of its middle, in baselines */
-    int32_t half_outer_q12;  /* half width in baselines where points still count half */
-    int32_t half_inner_q12;  /* and where they count full */
-    int32_t noise_q8;        /* half width of the band that noise needs, pixels */
-    uint32_t unevenness_q16; /* what an uneven road adds to it, as a share of the disparity */
-    bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */
-} roadpose_road_rule_t;
-
-/* Prepares the rule of a round, or of a look, for the plane. Returns false when the plane is no plane. */
+/* Prepares the rule of a round, or of a look, for the plane. Returns false when the plane is no plane. Once for each look:
+ * the plane stays until all its rows are in. */
 bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plane, const roadpose_grid_t *grid,
                         const roadpose_settings_t *settings, uint8_t round);
 
@@ -41,8 +30,8 @@ uint16_t roadpose_refine_row_step(uint8_t round, uint16_t points);
 void roadpose_levels_open(roadpose_moments_t *moments);
 void roadpose_levels_judge(roadpose_moments_t *moments, const roadpose_settings_t *settings);
 
-/* Clears the sums, not what is open. */
-void roadpose_moments_clear(roadpose_moments_t *moments);
+/* Begins a look: clears the sums, not what is open, and fixes each distance's band. */
+void roadpose_moments_begin(roadpose_moments_t *moments, const roadpose_road_rule_t *rule);
 
 /* Adds the points of one grid row. */
 void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *points, const roadpose_plane_t *plane,

@@ -25,12 +25,16 @@ static unsigned sort_level(uint16_t disparity_q8) {
 
 void roadpose_cloud_count(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
                           roadpose_thinning_t *thinning) {
+    roadpose_thinning_t local = *thinning; /* stays in registers, as does what is used */
+    uint16_t used = cloud->used;
     for (uint16_t i = first; i < last; i++) {
-        if (roadpose_thin(thinning)) {
+        if (roadpose_thin(&local)) {
             cloud->bucket[sort_level(points->disparity_q8[i]) + 1u]++;
-            cloud->used++;
+            used++;
         }
     }
+    cloud->used = used;
+    *thinning = local;
 }
 
 static uint8_t octave_of(unsigned sort_level) {
@@ -64,13 +68,15 @@ void roadpose_cloud_places(roadpose_cloud_t *cloud) {
 
 void roadpose_cloud_place(roadpose_cloud_t *cloud, const roadpose_points_t *points, uint16_t first, uint16_t last,
                           roadpose_thinning_t *thinning) {
+    roadpose_thinning_t local = *thinning;
     for (uint16_t i = first; i < last; i++) {
-        if (roadpose_thin(thinning)) {
+        if (roadpose_thin(&local)) {
             uint16_t *place = &cloud->bucket[sort_level(points->disparity_q8[i])];
             cloud->order[*place] = i;
             *place = (uint16_t)(*place + 1u);
         }
     }
+    *thinning = local;
 }
 
 static void keep_pair(roadpose_cloud_t *cloud, const roadpose_points_t *points, const roadpose_grid_t *grid,

@@ -96,7 +96,7 @@ def sift_points(drive):
     rig, features = drive.rig, {}
     camera = np.array([[rig["focal_px"], 0, rig["cu_px"]], [0, rig["focal_px"], rig["cv_px"]], [0, 0, 1]])
     finder = cv2.SIFT_create(4000, contrastThreshold=0.02)
-    for file in sorted((drive.folder / "left").glob("*.p[gn][gm]"))[:]:
+    for file in sorted((drive.folder / "left").glob("*.p[gn][gm]")):
         if int(file.stem) % 5 == 0:
             keys, described = finder.detectAndCompute(cv2.imread(str(file), cv2.IMREAD_GRAYSCALE), None)
             features[int(file.stem)] = keys, np.sqrt(described / described.sum(1, keepdims=True))
@@ -122,9 +122,8 @@ def derivative(function, at, step=1e-6):
     return here, np.stack([(function(at + step * unit) - here) / step for unit in np.eye(len(at))], -1)
 
 
-def turned(points, motion):
-    rays = np.c_[points.before, np.ones(len(points.before))] @ rotation(motion).T
-    return rays
+def turned(points, turn):
+    return np.c_[points.before, np.ones(len(points.before))] @ rotation(turn).T
 
 
 def across_flow(points, unknown, focal):

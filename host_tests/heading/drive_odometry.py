@@ -219,9 +219,10 @@ def table(drive, other):
         fields[f", corrected as on {other.name}"] = field_of(sift_points(other), other.rig)
     print(f"{drive.name}\n| way | yaw | standard error | turn to the left, sum | about the axis, sum |\n|---|---|---|---|---|")
     for name, pairs in {"tracks": tracks, "SIFT": sift}.items():
-        row(f"{name}: focus", [focus_of(pair, rig) for pair in pairs])
+        parts = {name: pairs, **{f"{name}, {half}": part for half, part in halves(pairs).items()}}
+        for part, chosen in parts.items():
+            row(f"{part}: focus", [focus_of(pair, rig) for pair in chosen])
         for what, field in fields.items():
-            parts = {name: pairs, **{f"{name}, {half}": part for half, part in halves(pairs).items()}}
             for part, chosen in parts.items():
                 row(f"{part}: odometry{what}", [odometry(pair.corrected(field), rig) for pair in chosen])
         row(f"{name}: odometry, disparity noise allowed for", [odometry(pair, rig, DISPARITY_NOISE) for pair in pairs])

@@ -245,7 +245,7 @@ typedef struct {
     roadpose_can_settings_t settings;
     roadpose_e2e_receiver_t receiver[ROADPOSE_CAN_MESSAGES];
     bool arrived[ROADPOSE_CAN_MESSAGES];   /* a frame in this cycle */
-    uint8_t missed[ROADPOSE_CAN_MESSAGES]; /* cycles since the last usable frame */
+    uint16_t missed[ROADPOSE_CAN_MESSAGES]; /* cycles since the last usable frame; wider than timeout_cycles */
     roadpose_can_view_t view;
 } roadpose_can_receive_t;
 

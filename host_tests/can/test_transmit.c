@@ -99,6 +99,18 @@ static void an_estimate_dated_after_its_cycle_is_not_old(void) {
     TEST_ASSERT_EQUAL_HEX8(7, sent_pose(0).valid);
 }
 
+/* A camera with a clock of its own, or a clock that was set back: nobody can tell how old the pose is. */
+static void an_estimate_of_another_clock_is_not_new_for_ever(void) {
+    publish(1500000, 0);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us - CYCLE_US));
+    TEST_ASSERT_EQUAL_HEX8(7, sent_pose(0).valid);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us - CYCLE_US - 1u));
+    TEST_ASSERT_EQUAL_HEX8(0, sent_pose(1).valid);
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_CAN_STATUS_NO_FRAME, sent_status(1).pose_status);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle()); /* nor does it come back */
+    TEST_ASSERT_EQUAL_HEX8(0, sent_pose(2).valid);
+}
+
 static void counters_start_at_the_constant_and_run_over(void) {
     for (int i = 0; i < 40; i++)
         TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
@@ -237,6 +249,7 @@ int main(void) {
     RUN_TEST(an_estimate_is_held_until_it_is_too_old);
     RUN_TEST(an_estimate_of_exactly_the_largest_age_is_sent);
     RUN_TEST(an_estimate_dated_after_its_cycle_is_not_old);
+    RUN_TEST(an_estimate_of_another_clock_is_not_new_for_ever);
     RUN_TEST(counters_start_at_the_constant_and_run_over);
     RUN_TEST(a_full_queue_is_tried_again_until_the_cycle_ends);
     RUN_TEST(a_full_queue_after_an_outage_is_a_bus_again);

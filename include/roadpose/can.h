@@ -206,10 +206,12 @@ roadpose_can_result_t roadpose_can_transmit_init(roadpose_can_transmit_t *transm
                                                  const roadpose_can_port_t *port);
 
 /* Hands over the newest estimate, which is copied, and how many camera frames were overwritten so far
- * (roadpose_can_counts_t.overwritten is set to it). Replaces the one before, sent or not. now_us: when it became
- * known. Nothing is sent: the next cycle does. Does nothing on NULL. Constant time. */
+ * (roadpose_can_counts_t.overwritten is set to it). Replaces the one before, sent or not. time_us: from when on its age
+ * counts, on the clock of roadpose_can_transmit_cycle(): the exposure where the camera is stamped by that clock, else
+ * when the pose became known. Dated more than cycle_us ahead of the cycle that would send it, its age cannot be told,
+ * and it is treated as too old. Nothing is sent: the next cycle does. Does nothing on NULL. Constant time. */
 void roadpose_can_transmit_publish(roadpose_can_transmit_t *transmit, const roadpose_can_estimate_t *estimate,
-                                   uint32_t overwritten, uint64_t now_us);
+                                   uint32_t overwritten, uint64_t time_us);
 
 /* Begins a cycle: gives up what still waits from the last one, packs the newest estimate, protects, and offers the
  * three frames. Call it every cycle_us, also when there is no new estimate; max_age_us then says for how long the last

@@ -132,7 +132,8 @@ typedef struct {
  * unchanged, on NULL or an unknown profile. Constant time. */
 bool roadpose_can_settings_default(roadpose_can_settings_t *settings, roadpose_e2e_profile_t profile);
 
-/* True when every field is in its range and the identifiers differ. False on NULL. */
+/* True when every field is in its range, the identifiers differ, and the data identifiers of messages with the same
+ * profile differ (of profile 2 at every counter). False on NULL. Constant time. */
 bool roadpose_can_settings_valid(const roadpose_can_settings_t *settings);
 
 /* ------------------------------------------------------------------------------------------------------ sender */
@@ -164,8 +165,8 @@ typedef struct {
     uint32_t full;      /* times that the port answered FULL */
     uint32_t dropped;   /* CAN frames given up: never taken, and replaced by the next cycle's */
     uint32_t down;      /* times that the bus went down, bus-off included */
-    uint32_t bus_off;   /* of those, times bus-off */
-    uint32_t recovered; /* times that a frame was taken again after the bus had been down */
+    uint32_t bus_off;   /* times that it became bus-off, from up or from down */
+    uint32_t recovered; /* times that the bus was there again: it took a frame, or had no room for one */
 } roadpose_can_counts_t;
 
 /* One frame that waits for the port. Private members. */
@@ -185,6 +186,7 @@ typedef struct {
     uint64_t start_us; /* of the cycle */
     bool has_estimate;
     bool bus_down; /* last answer of can_send */
+    bool bus_off;  /* likewise */
     roadpose_can_slot_t slot[ROADPOSE_CAN_MESSAGES];
     roadpose_can_counts_t counts;
 } roadpose_can_transmit_t;

@@ -106,32 +106,33 @@ static void make_frames(roadpose_can_transmit_t *transmit) {
     }
 }
 
+static void note_bus(roadpose_can_transmit_t *transmit) {
+    if (transmit->bus_down) {
+        transmit->counts.recovered++;
+    }
+    transmit->bus_down = false;
+    transmit->bus_off = false;
+}
+
 static void note_sent(roadpose_can_transmit_t *transmit, unsigned message) {
     transmit->slot[message].waits = false;
     transmit->slot[message].sent = transmit->slot[message].counter;
     step_counter(transmit, message);
     transmit->counts.sent++;
-    if (transmit->bus_down) {
-        transmit->bus_down = false;
-        transmit->counts.recovered++;
-    }
+    note_bus(transmit);
 }
 
 static void note_no_bus(roadpose_can_transmit_t *transmit, bool bus_off) {
-    if (!transmit->bus_down) {
-        transmit->bus_down = true;
-        transmit->counts.down++;
-        transmit->counts.bus_off += bus_off ? 1u : 0u;
-    }
+    transmit->counts.down += transmit->bus_down ? 0u : 1u;
+    transmit->counts.bus_off += (bus_off && !transmit->bus_off) ? 1u : 0u;
+    transmit->bus_down = true;
+    transmit->bus_off = bus_off;
 }
 
 /* A bus that answers "full" is not down: it will take the frame. */
 static roadpose_can_result_t note_full(roadpose_can_transmit_t *transmit) {
     transmit->counts.full++;
-    if (transmit->bus_down) {
-        transmit->bus_down = false;
-        transmit->counts.recovered++;
-    }
+    note_bus(transmit);
     return ROADPOSE_CAN_WAITING;
 }
 

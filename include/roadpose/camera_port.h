@@ -51,9 +51,11 @@ typedef struct {
     void (*frame_release)(roadpose_camera_context_t *context, const roadpose_frame_t *frame, uint32_t frame_id);
 
     /* Drops cached copies of a buffer that DMA has written, before its first byte is read: once for the samples and,
-     * where the frame has one, once for the confidence image. bytes counts from the first sample to the last one,
-     * stride gaps included; a buffer that does not begin and end on a cache line is the platform's to keep clean.
-     * Called from the task only. NULL: memory is coherent. May not: write dirty lines back over the buffer, block. */
+     * where the disparity format uses one, once for the confidence image. bytes counts from the first sample to the last
+     * one, stride gaps included. A buffer that does not begin and end on a cache line is the platform's to keep clean;
+     * and if the processor ever writes to a buffer, the driver invalidates it before DMA starts as well, lest a dirty
+     * line be written over the frame. Called from the task only, after the frame was accepted and before its first
+     * slice. NULL: memory is coherent. May not: write dirty lines back over the buffer, block. */
     void (*cache_invalidate)(roadpose_camera_context_t *context, const void *address, size_t bytes);
 
     /* Takes the result of a frame, whether it has a pose (pose->status) or not. Must be given. Called from the task

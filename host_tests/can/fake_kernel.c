@@ -82,11 +82,14 @@ int __wrap_ioctl(int fd, unsigned long request, ...) {
     va_end(arguments);
     if (fails())
         return -1;
-    if (fd != FAKE_SOCKET || request != SIOCGIFINDEX)
+    if (fd != FAKE_SOCKET || (request != SIOCGIFINDEX && request != SIOCGIFFLAGS))
         return refuse(EBADF);
     if (!kernel.has_vcan || strcmp(interface->ifr_name, "vcan0") != 0)
         return refuse(ENODEV);
-    interface->ifr_ifindex = 3;
+    if (request == SIOCGIFINDEX)
+        interface->ifr_ifindex = 3;
+    else
+        interface->ifr_flags = (short)((kernel.is_up ? IFF_UP : 0) | (kernel.has_no_carrier ? 0 : IFF_RUNNING));
     return 0;
 }
 

@@ -14,6 +14,7 @@ typedef struct {
     bool has_vcan; /* the interface "vcan0" exists */
     bool is_up;
     bool is_full;
+    bool has_no_carrier;
     int pending_error; /* reported once by the next send or recv */
     uint32_t error_frames[4];
     int error_count;

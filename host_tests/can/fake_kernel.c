@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 
 #include <linux/can.h>
+#include <linux/can/error.h>
 
 #define FAKE_SOCKET 77
 
@@ -118,7 +119,10 @@ int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size) {
 /* What Linux answers, in its order: no interface, interface down, an error that was kept for this call, no room. */
 static int reason_not_to_send(void) {
     int reason = 0;
-    if (!kernel.is_bound)
+    kernel.sends++;
+    if (kernel.sends >= kernel.refused.from && kernel.sends <= kernel.refused.to)
+        reason = kernel.refused_errno;
+    else if (!kernel.is_bound)
         reason = ENXIO;
     else if (kernel.pending_error != 0)
         reason = kernel.pending_error;
@@ -161,6 +165,9 @@ ssize_t __wrap_recv(int fd, void *bytes, size_t count, int flags) {
         kernel.pending_error = 0;
         return refuse(reason);
     }
+    kernel.recvs++;
+    if (kernel.bus_off.to != 0 && (kernel.recvs == kernel.bus_off.from || kernel.recvs == kernel.bus_off.to))
+        fake_kernel_report(kernel.recvs == kernel.bus_off.from ? CAN_ERR_BUSOFF : CAN_ERR_RESTARTED);
     if (kernel.error_count == 0)
         return refuse(EAGAIN);
     memset(&frame, 0, sizeof frame);

@@ -111,7 +111,8 @@ roadpose_result_t roadpose_camera_init(roadpose_camera_port_t *port, const roadp
 /* Interrupt side: hands a frame over. *frame is copied; its buffers are lent until frame_release. frame_id and time_us
  * (when the frame was exposed, on any clock) come back with the pose. Whether the frame fits the rig is found out by
  * the task. Returns false, and the driver keeps the frame, only on a NULL pointer or a port that is not initialised.
- * From one interrupt, or from several. Cost: two copies of a slot, and one frame_release when one is displaced. */
+ * From one interrupt, or from several. No loop; cost: two copies of a slot, lock and unlock, and one frame_release when
+ * a frame is displaced; fewer than 100 instructions of a Cortex-M4 at -Os besides the platform's callbacks. */
 bool roadpose_camera_frame_ready(roadpose_camera_port_t *port, const roadpose_frame_t *frame, uint32_t frame_id,
                                  uint64_t time_us);
 

@@ -23,8 +23,9 @@
  * | status  | overwritten count     | 48|8  | 0        | 1        | 254        | overwritten_count, modulo 255    |
  * | status  | dropped count         | 56|8  | 0        | 1        | 254        | dropped_count, modulo 255        |
  *
- * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time. No heap, no
- * floating point, no clock. Numbers are rounded to the nearest code.
+ * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time, so publishing, cycle
+ * and poll belong to one task, or need the platform's lock. No heap, no floating point, no clock. Numbers are rounded to
+ * the nearest code.
  */
 #ifndef ROADPOSE_CAN_H
 #define ROADPOSE_CAN_H
@@ -258,7 +259,7 @@ typedef struct {
 roadpose_can_result_t roadpose_can_receive_init(roadpose_can_receive_t *receive,
                                                 const roadpose_can_settings_t *settings);
 
-/* Takes one frame from the bus. Returns which message it was, NONE for an identifier that is not ours or on NULL;
+/* Takes one data frame from the bus (no remote frame). Returns which message it was, NONE for an identifier that is not ours or on NULL;
  * receive->view.e2e[message] tells whether it could be used; only then were its signals taken over. A frame of ours
  * whose length is not 8 counts as a CRC error. Constant time. */
 roadpose_can_message_t roadpose_can_receive_frame(roadpose_can_receive_t *receive, uint32_t id, const uint8_t *data,

@@ -45,7 +45,8 @@ typedef enum {
 /* Protection of one message. Sender and receiver must have the same profile and identifiers. */
 typedef struct {
     uint8_t profile;   /* roadpose_e2e_profile_t */
-    uint8_t max_delta; /* receiver: largest step of the counter that still counts as "some lost", 1...14 */
+    uint8_t max_delta; /* receiver: largest step of the counter that still counts as "some lost", 1...14. AUTOSAR's
+                          MaxDeltaCounterInit of profiles 1 and 2 is one less, its MaxDeltaCounter of 5 is this */
     uint16_t data_id;  /* profiles 1 and 5: unique among the messages of the network */
     uint8_t data_id_list[ROADPOSE_E2E_LIST_ENTRIES]; /* profile 2 */
 } roadpose_e2e_config_t;

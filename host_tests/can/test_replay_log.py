@@ -44,6 +44,17 @@ class ReplayLog(unittest.TestCase):
             self.assertEqual(3 * drive.FRAMES, len(text.splitlines()))
             self.assertEqual([], capture.missing_frames(text, self.poses, profile))
 
+    def test_yaw_and_its_status(self):
+        seen = set()
+        for name in ("yaw-left", "yaw-right", "yaw-winding"):
+            recording = pathlib.Path(FIXTURES) / name
+            poses = run(REPLAY, recording).stdout
+            log = run(REPLAY, "--candump", "-", recording).stdout
+            self.assertEqual([], capture.missing_frames(log, poses), name)
+            seen |= {row["yaw_status"] for row in capture.csv.DictReader(poses.splitlines()) if row["yaw_status"]}
+        self.assertIn("ok", seen)
+        self.assertGreater(len(seen), 1, "no yaw was ever refused")
+
     def test_a_log_on_standard_output_is_all_there_is(self):
         log = run(REPLAY, "--candump", "-", self.recording).stdout
         self.assertEqual([], capture.missing_frames(log, self.poses))

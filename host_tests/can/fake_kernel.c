@@ -11,6 +11,7 @@
 
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <linux/can/raw.h>
 
 #define FAKE_SOCKET 77
 
@@ -63,10 +64,13 @@ static int refuse(int reason) {
 }
 
 int __wrap_socket(int family, int type, int protocol) {
-    (void)type;
     (void)protocol;
     if (fails())
         return -1;
+    kernel.is_nonblocking = (type & SOCK_NONBLOCK) != 0;
+    kernel.hears_data = true;
+    kernel.error_mask = 0;
+    kernel.send_buffer = -1;
     if (!kernel.has_can || family != PF_CAN)
         return refuse(EAFNOSUPPORT);
     kernel.is_open = true;
@@ -95,11 +99,15 @@ int __wrap_ioctl(int fd, unsigned long request, ...) {
 }
 
 int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size) {
-    (void)level;
-    (void)name;
-    (void)value;
-    (void)size;
-    return fails() ? -1 : (fd == FAKE_SOCKET ? 0 : refuse(EBADF));
+    if (fails())
+        return -1;
+    if (level == SOL_CAN_RAW && name == CAN_RAW_FILTER && size == 0)
+        kernel.hears_data = false;
+    if (level == SOL_CAN_RAW && name == CAN_RAW_ERR_FILTER && size == sizeof kernel.error_mask)
+        memcpy(&kernel.error_mask, value, sizeof kernel.error_mask);
+    if (level == SOL_SOCKET && name == SO_SNDBUF && size == sizeof kernel.send_buffer)
+        memcpy(&kernel.send_buffer, value, sizeof kernel.send_buffer);
+    return fd == FAKE_SOCKET ? 0 : refuse(EBADF);
 }
 
 int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size) {
@@ -137,7 +145,7 @@ static int reason_not_to_send(void) {
 ssize_t __wrap_send(int fd, const void *bytes, size_t count, int flags) {
     const struct can_frame *frame = bytes;
     int reason;
-    (void)flags;
+    kernel.may_block = kernel.may_block || (!kernel.is_nonblocking && (flags & MSG_DONTWAIT) == 0);
     if (fails())
         return -1;
     reason = (fd == FAKE_SOCKET && kernel.is_open) ? reason_not_to_send() : EBADF;
@@ -155,7 +163,7 @@ ssize_t __wrap_send(int fd, const void *bytes, size_t count, int flags) {
 
 ssize_t __wrap_recv(int fd, void *bytes, size_t count, int flags) {
     struct can_frame frame;
-    (void)flags;
+    kernel.may_block = kernel.may_block || (!kernel.is_nonblocking && (flags & MSG_DONTWAIT) == 0);
     if (fails())
         return -1;
     if (fd != FAKE_SOCKET || count != sizeof frame)

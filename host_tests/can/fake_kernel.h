@@ -21,6 +21,10 @@ typedef struct {
     bool is_up;
     bool is_full;
     bool has_no_carrier;
+    bool may_block;       /* a call that may wait was made */
+    bool hears_data;      /* the socket receives data frames */
+    uint32_t error_mask;  /* which error frames it receives */
+    int send_buffer;      /* as asked for; -1: not at all */
     int pending_error; /* reported once by the next send or recv */
     uint32_t error_frames[4];
     int error_count;
@@ -34,6 +38,7 @@ typedef struct {
     int fail_at; /* this call fails with fail_errno; 0: none */
     int fail_errno;
     bool is_open;
+    bool is_nonblocking;
     bool is_bound;
     int opened; /* sockets open now; more than one is a leak */
     int frames;

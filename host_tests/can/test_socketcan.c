@@ -22,6 +22,7 @@ void setUp(void) {
 void tearDown(void) {
     roadpose_socketcan_close(&can);
     TEST_ASSERT_EQUAL_INT(0, kernel.opened);
+    TEST_ASSERT_FALSE_MESSAGE(kernel.may_block, "a call may have waited");
 }
 
 static void expect_send(roadpose_can_send_t answer) {
@@ -41,6 +42,14 @@ static void frames_reach_the_interface(void) {
     TEST_ASSERT_EQUAL_HEX32(CAN_EFF_FLAG | 0x12345u, kernel.frame[1].id);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(data, kernel.frame[0].data, 8);
     TEST_ASSERT_EQUAL_UINT32(2, can.counts.sent);
+}
+
+static void the_socket_is_asked_for_what_it_needs(void) {
+    open_vcan();
+    TEST_ASSERT_TRUE(kernel.is_nonblocking);
+    TEST_ASSERT_FALSE_MESSAGE(kernel.hears_data, "every frame on the bus wakes us and fills the queue");
+    TEST_ASSERT_EQUAL_HEX32(CAN_ERR_BUSOFF | CAN_ERR_RESTARTED, kernel.error_mask);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, kernel.send_buffer, "a long queue sends old poses");
 }
 
 static void a_missing_interface_is_told_and_waited_for(void) {
@@ -252,6 +261,7 @@ static void any_call_may_fail_with_any_error(void) {
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(frames_reach_the_interface);
+    RUN_TEST(the_socket_is_asked_for_what_it_needs);
     RUN_TEST(a_missing_interface_is_told_and_waited_for);
     RUN_TEST(a_kernel_without_can_is_told);
     RUN_TEST(names_that_no_interface_can_have_are_refused);

@@ -146,7 +146,8 @@ static void a_full_queue_after_an_outage_is_a_bus_again(void) {
     TEST_ASSERT_EQUAL_UINT32(1, roadpose_can_transmit_counts(&transmit)->recovered);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
     TEST_ASSERT_EQUAL_UINT(1, bus.recovers);
-    TEST_ASSERT_EQUAL_UINT8(1, fake_frame_counter(&bus.frame[0])); /* one cycle was lost, one only waited */
+    /* One cycle was lost, one only waited. */
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_E2E_FIRST_COUNTER + 1, fake_frame_counter(&bus.frame[0]));
 }
 
 static void expect_down(roadpose_can_send_t answer, uint32_t down, uint32_t bus_off) {
@@ -182,7 +183,8 @@ static void after_the_deadline_nothing_old_is_sent(void) {
     publish(2000000, 0);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
     TEST_ASSERT_EQUAL_INT32(2000000, sent_pose(0).height_um);
-    TEST_ASSERT_EQUAL_UINT8(0, fake_frame_counter(&bus.frame[0])); /* never sent, so its counter was free */
+    /* Never sent, so its counter was free. */
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_E2E_FIRST_COUNTER, fake_frame_counter(&bus.frame[0]));
     TEST_ASSERT_EQUAL_UINT32(3, sent_status(0).dropped_count);
 }
 

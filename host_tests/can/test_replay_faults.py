@@ -6,6 +6,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 import capture
@@ -102,6 +103,22 @@ class ReplayFaults(unittest.TestCase):
                           f"its queue has room again; {lost} CAN frames dropped so far",
                           f"{3 * FRAMES - lost} CAN frames sent, {lost} dropped; down 0 times (bus-off 0), queue full "
                           "300 times"], told)
+
+    def test_a_slow_recording_has_slow_cycles(self):
+        """At 1 Hz there is a second to find room: more than these calls take."""
+        slow = drive.make(os.environ["ROADPOSE_FIXTURES"], self.folder / "slow", count=12, rate_hz="1.0")
+        result = self.run_replay("--can", "vcan0", "--speed", "0", slow,
+                                 ROADPOSE_REFUSED=f"{FIRST} {FIRST + 149} {errno.ENOBUFS}")
+        self.assertEqual("roadpose-replay: vcan0: 36 CAN frames sent, 0 dropped; down 0 times (bus-off 0), queue full 150 "
+                         "times\n", result.stderr)
+
+    def test_the_pace_of_the_recording(self):
+        """Six frames at 10 Hz are five waits, unless --speed says otherwise."""
+        quick = drive.make(os.environ["ROADPOSE_FIXTURES"], self.folder / "quick", count=6)
+        for options, least in (([], 0.5), (["--speed", "2"], 0.25)):
+            begin = time.monotonic()
+            self.assertEqual(0, self.run_replay("--can", "vcan0", *options, quick).returncode)
+            self.assertGreaterEqual(time.monotonic() - begin, least)
 
     def test_a_log_that_fails_does_not_stop_the_bus(self):
         if not os.path.exists("/dev/full"):

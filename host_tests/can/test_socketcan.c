@@ -198,6 +198,36 @@ static void an_interface_that_is_bus_off_from_the_start_is_told(void) {
     expect_send(ROADPOSE_CAN_SENT);
 }
 
+/* An adapter is unplugged and plugged in again; the new one has its own two seconds. */
+static void bus_off_ends_when_the_interface_vanishes(void) {
+    open_vcan();
+    fake_kernel_report(CAN_ERR_BUSOFF);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 0);
+    fake_kernel_remove();
+    expect_send(ROADPOSE_CAN_DOWN);
+    kernel.has_vcan = true;
+    kernel.has_no_carrier = true;
+    fake_kernel_set_up(true);
+    roadpose_socketcan_recover(&can, 5000000);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    kernel.has_no_carrier = false;
+    roadpose_socketcan_recover(&can, 5100000);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 7100000);
+    expect_send(ROADPOSE_CAN_SENT);
+}
+
+static void what_is_closed_stays_closed(void) {
+    open_vcan();
+    roadpose_socketcan_close(&can);
+    const int calls = kernel.calls;
+    roadpose_socketcan_recover(&can, 0);
+    expect_send(ROADPOSE_CAN_DOWN);
+    roadpose_socketcan_close(&can);
+    TEST_ASSERT_EQUAL_INT(calls, kernel.calls);
+}
+
 static void every_result_has_words(void) {
     for (int result = 0; result <= ROADPOSE_SOCKETCAN_REFUSED; result++)
         TEST_ASSERT_TRUE(strcmp(roadpose_socketcan_words((roadpose_socketcan_result_t)result), "unknown") != 0);
@@ -274,6 +304,8 @@ int main(void) {
     RUN_TEST(bus_off_that_is_heard_of_too_late_does_not_last_for_ever);
     RUN_TEST(bus_off_lasts_as_long_as_there_is_no_carrier);
     RUN_TEST(an_interface_that_is_bus_off_from_the_start_is_told);
+    RUN_TEST(bus_off_ends_when_the_interface_vanishes);
+    RUN_TEST(what_is_closed_stays_closed);
     RUN_TEST(every_result_has_words);
     RUN_TEST(any_call_may_fail_with_any_error);
     return UNITY_END();

@@ -107,8 +107,8 @@ static void note_error_frame(roadpose_socketcan_t *can, const struct can_frame *
         can->is_bus_off = false;
 }
 
-/* What the controller reported since the last call. That the interface went down is told here too: when it comes up
- * again, the controller starts afresh and is not bus-off. */
+/* What the controller reported since the last call. That the interface went down, or vanished, is told here too: a
+ * controller that starts afresh is not bus-off, and the write will tell what is now. */
 static void read_error_frames(roadpose_socketcan_t *can) {
     struct can_frame frame;
     for (int i = 0; i < MAX_ERROR_FRAMES; i++) {
@@ -116,7 +116,7 @@ static void read_error_frames(roadpose_socketcan_t *can) {
         if (got == (ssize_t)sizeof frame) {
             note_error_frame(can, &frame);
         } else {
-            if (got < 0 && errno == ENETDOWN)
+            if (got < 0 && errno != EAGAIN && errno != EINTR)
                 can->is_bus_off = false;
             return;
         }

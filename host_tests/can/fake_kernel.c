@@ -94,7 +94,7 @@ int __wrap_ioctl(int fd, unsigned long request, ...) {
     if (request == SIOCGIFINDEX)
         interface->ifr_ifindex = 3;
     else
-        interface->ifr_flags = (short)((kernel.is_up ? IFF_UP : 0) | (kernel.has_no_carrier ? 0 : IFF_RUNNING));
+        interface->ifr_flags = (short)(!kernel.is_up ? 0 : kernel.has_no_carrier ? IFF_UP : IFF_UP | IFF_RUNNING);
     return 0;
 }
 

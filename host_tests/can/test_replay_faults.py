@@ -47,13 +47,13 @@ class ReplayFaults(unittest.TestCase):
     def refuse(self, calls, reason):
         return self.play(ROADPOSE_REFUSED=f"{FIRST} {FIRST + calls - 1} {reason}")
 
-    def expect_outage(self, played, rows, reason, counts):
+    def expect_outage(self, played, rows, reason, counts, *meanwhile):
         """All of these rows, and nothing else, are missing; the counters tell receivers how many."""
         told, log = played
         missing = capture.missing_frames(log, self.poses)
         self.assertEqual([(row, index) for row in rows for index in range(3)], missing)
         lost = len(missing)
-        self.assertEqual([f"down ({reason}); CAN frames are dropped until it is back",
+        self.assertEqual([f"down ({reason}); CAN frames are dropped until it is back", *meanwhile,
                           f"back; {lost} CAN frames dropped so far",
                           f"{3 * FRAMES - lost} CAN frames sent, {lost} dropped; {counts}"], told)
 
@@ -86,6 +86,12 @@ class ReplayFaults(unittest.TestCase):
         """Two seconds after it was heard of, at the first recovery in row 11, the carrier decides."""
         self.expect_outage(self.play(ROADPOSE_BUS_OFF=f"{FIRST} {10 ** 6}"), range(10, 31), "bus-off",
                            "down 1 times (bus-off 1), queue full 0 times")
+
+    def test_bus_off_while_down(self):
+        """Down in rows 10 and 11, bus-off from row 12 (the 33rd call of recv) until row 23 (the 45th)."""
+        played = self.play(ROADPOSE_REFUSED=f"{FIRST} {FIRST + 3} {errno.ENETDOWN}", ROADPOSE_BUS_OFF="33 45")
+        self.expect_outage(played, range(10, 23), os.strerror(errno.ENETDOWN),
+                           "down 1 times (bus-off 1), queue full 0 times", "bus-off")
 
     def test_queue_full_for_a_moment(self):
         told, log = self.refuse(5, errno.ENOBUFS)

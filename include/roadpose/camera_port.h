@@ -1,7 +1,8 @@
 /* roadpose: from a camera driver's interrupt to a cyclic task.
  *
  * The interrupt only hands over; all work is done by the task. In between is a mailbox of one slot: the newest frame
- * wins, and the frame it displaces goes back to the driver at once. A driver therefore needs at most three buffers:
+ * wins, that is the one handed over last (ids and times are not compared), and the frame it displaces goes back to the
+ * driver at once. A driver therefore needs at most three buffers:
  * one that it fills, one in the mailbox, one in work.
  *
  *     driver's interrupt                          cyclic task

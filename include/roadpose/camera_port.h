@@ -2,8 +2,7 @@
  *
  * The interrupt only hands over; all work is done by the task. In between is a mailbox of one slot: the newest frame
  * wins, that is the one handed over last (ids and times are not compared), and the frame it displaces goes back to the
- * driver at once. A driver therefore needs at most three buffers:
- * one that it fills, one in the mailbox, one in work.
+ * driver at once. A driver therefore needs at most three buffers: one that it fills, one in the mailbox, one in work.
  *
  *     driver's interrupt                          cyclic task
  *     roadpose_camera_frame_ready()  -> mailbox -> roadpose_camera_task() -> pose_ready(), then frame_release()

@@ -41,11 +41,14 @@ class Sender:
         self.rows = rows
         self.profile = profile
         self.messages = [codec.database(profile).get_message_by_name(name) for name in codec.MESSAGES]
-        self.statuses = {str(word): code for code, word in
-                         self.messages[2].get_signal_by_name("PoseStatus").choices.items()}
+        self.statuses = self.words_of("PoseStatus")
+        self.yaw_statuses = self.words_of("YawStatus")
         self.counter = [0, 0, 0]
         self.last = [None, None, None]
         self.dropped = 0
+
+    def words_of(self, name):
+        return {str(word): code for code, word in self.messages[2].get_signal_by_name(name).choices.items()}
 
     def codes_of(self, index, row, columns):
         message = self.messages[index]
@@ -57,9 +60,10 @@ class Sender:
         return result
 
     def status_of(self, number):
+        row = self.rows[number]
         refused = sum(row["status"] != "ok" for row in self.rows[:number + 1])
-        return {"PoseStatus": self.statuses[self.rows[number]["status"]], "FrameCount": (number + 1) % 255,
-                "RefusedCount": refused % 255, "OverwrittenCount": 0}
+        return {"PoseStatus": self.statuses[row["status"]], "YawStatus": self.yaw_statuses[row["yaw_status"] or "invalid"],
+                "FrameCount": (number + 1) % 255, "RefusedCount": refused % 255, "OverwrittenCount": 0}
 
     def predict(self, index, number, dropped):
         """Signals that the CSV tells; those it does not tell are left out."""

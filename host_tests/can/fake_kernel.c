@@ -10,6 +10,8 @@
 #include <sys/socket.h>
 
 #include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
 
 #define FAKE_SOCKET 77
 
@@ -62,10 +64,13 @@ static int refuse(int reason) {
 }
 
 int __wrap_socket(int family, int type, int protocol) {
-    (void)type;
     (void)protocol;
     if (fails())
         return -1;
+    kernel.is_nonblocking = (type & SOCK_NONBLOCK) != 0;
+    kernel.hears_data = true;
+    kernel.error_mask = 0;
+    kernel.send_buffer = -1;
     if (!kernel.has_can || family != PF_CAN)
         return refuse(EAFNOSUPPORT);
     kernel.is_open = true;
@@ -82,20 +87,27 @@ int __wrap_ioctl(int fd, unsigned long request, ...) {
     va_end(arguments);
     if (fails())
         return -1;
-    if (fd != FAKE_SOCKET || request != SIOCGIFINDEX)
+    if (fd != FAKE_SOCKET || (request != SIOCGIFINDEX && request != SIOCGIFFLAGS))
         return refuse(EBADF);
     if (!kernel.has_vcan || strcmp(interface->ifr_name, "vcan0") != 0)
         return refuse(ENODEV);
-    interface->ifr_ifindex = 3;
+    if (request == SIOCGIFINDEX)
+        interface->ifr_ifindex = 3;
+    else
+        interface->ifr_flags = (short)(!kernel.is_up ? 0 : kernel.has_no_carrier ? IFF_UP : IFF_UP | IFF_RUNNING);
     return 0;
 }
 
 int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size) {
-    (void)level;
-    (void)name;
-    (void)value;
-    (void)size;
-    return fails() ? -1 : (fd == FAKE_SOCKET ? 0 : refuse(EBADF));
+    if (fails())
+        return -1;
+    if (level == SOL_CAN_RAW && name == CAN_RAW_FILTER && size == 0)
+        kernel.hears_data = false;
+    if (level == SOL_CAN_RAW && name == CAN_RAW_ERR_FILTER && size == sizeof kernel.error_mask)
+        memcpy(&kernel.error_mask, value, sizeof kernel.error_mask);
+    if (level == SOL_SOCKET && name == SO_SNDBUF && size == sizeof kernel.send_buffer)
+        memcpy(&kernel.send_buffer, value, sizeof kernel.send_buffer);
+    return fd == FAKE_SOCKET ? 0 : refuse(EBADF);
 }
 
 int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size) {
@@ -115,7 +127,10 @@ int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size) {
 /* What Linux answers, in its order: no interface, interface down, an error that was kept for this call, no room. */
 static int reason_not_to_send(void) {
     int reason = 0;
-    if (!kernel.is_bound)
+    kernel.sends++;
+    if (kernel.sends >= kernel.refused.from && kernel.sends <= kernel.refused.to)
+        reason = kernel.refused_errno;
+    else if (!kernel.is_bound)
         reason = ENXIO;
     else if (kernel.pending_error != 0)
         reason = kernel.pending_error;
@@ -130,7 +145,7 @@ static int reason_not_to_send(void) {
 ssize_t __wrap_send(int fd, const void *bytes, size_t count, int flags) {
     const struct can_frame *frame = bytes;
     int reason;
-    (void)flags;
+    kernel.may_block = kernel.may_block || (!kernel.is_nonblocking && (flags & MSG_DONTWAIT) == 0);
     if (fails())
         return -1;
     reason = (fd == FAKE_SOCKET && kernel.is_open) ? reason_not_to_send() : EBADF;
@@ -148,7 +163,7 @@ ssize_t __wrap_send(int fd, const void *bytes, size_t count, int flags) {
 
 ssize_t __wrap_recv(int fd, void *bytes, size_t count, int flags) {
     struct can_frame frame;
-    (void)flags;
+    kernel.may_block = kernel.may_block || (!kernel.is_nonblocking && (flags & MSG_DONTWAIT) == 0);
     if (fails())
         return -1;
     if (fd != FAKE_SOCKET || count != sizeof frame)
@@ -158,6 +173,9 @@ ssize_t __wrap_recv(int fd, void *bytes, size_t count, int flags) {
         kernel.pending_error = 0;
         return refuse(reason);
     }
+    kernel.recvs++;
+    if (kernel.bus_off.to != 0 && (kernel.recvs == kernel.bus_off.from || kernel.recvs == kernel.bus_off.to))
+        fake_kernel_report(kernel.recvs == kernel.bus_off.from ? CAN_ERR_BUSOFF : CAN_ERR_RESTARTED);
     if (kernel.error_count == 0)
         return refuse(EAGAIN);
     memset(&frame, 0, sizeof frame);

@@ -31,6 +31,7 @@ static void lines_look_as_can_utils_writes_them(void) {
     roadpose_candump_t log;
     TEST_ASSERT_TRUE(roadpose_candump_open(&log, path, "vcan0"));
     roadpose_candump_write(&log, UINT64_C(1436509052249713), 0x123, data);
+    expect_file("(1436509052.249713) vcan0 123#1122334455667788\n"); /* at once */
     roadpose_candump_write(&log, 42, ROADPOSE_CAN_EXTENDED | 0x1ABCDEFu, data);
     TEST_ASSERT_TRUE(roadpose_candump_close(&log));
     TEST_ASSERT_TRUE(roadpose_candump_close(&log));

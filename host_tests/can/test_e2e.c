@@ -121,6 +121,19 @@ static void the_allowance_widens_by_one_a_cycle_and_no_more(void) {
     TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_WRONG_SEQUENCE, receive(&receiver, 8));
 }
 
+/* As in AUTOSAR: whatever came instead, another cycle has passed. */
+static void damaged_and_repeated_frames_widen_the_allowance(void) {
+    const uint8_t damaged[8] = {0xFF, 0, 0, 1, 2, 3, 4, 5};
+    for (uint8_t beyond = 0; beyond < 2; beyond++) {
+        roadpose_e2e_receiver_t receiver = {0};
+        TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_INITIAL, receive(&receiver, 0));
+        TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_CRC_ERROR, roadpose_e2e_check(&config, &receiver, damaged));
+        TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_REPEATED, receive(&receiver, 0));
+        TEST_ASSERT_EQUAL_INT(beyond ? ROADPOSE_E2E_WRONG_SEQUENCE : ROADPOSE_E2E_SOME_LOST,
+                              receive(&receiver, (uint8_t)(5 + beyond)));
+    }
+}
+
 static void a_long_silence_neither_overflows_nor_hides_a_repetition(void) {
     roadpose_e2e_receiver_t receiver = {0};
     TEST_ASSERT_EQUAL_INT(ROADPOSE_E2E_INITIAL, receive(&receiver, 5));
@@ -204,6 +217,7 @@ int main(void) {
     RUN_TEST(the_receiver_goes_through_all_states);
     RUN_TEST(cycles_without_a_frame_widen_the_allowance);
     RUN_TEST(the_allowance_widens_by_one_a_cycle_and_no_more);
+    RUN_TEST(damaged_and_repeated_frames_widen_the_allowance);
     RUN_TEST(a_long_silence_neither_overflows_nor_hides_a_repetition);
     RUN_TEST(damage_is_found_in_every_profile);
     RUN_TEST(another_message_is_not_taken_for_ours);

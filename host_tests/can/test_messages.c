@@ -179,6 +179,26 @@ static void a_refused_frame_keeps_the_figures_it_came_to(void) {
     roadpose_can_estimate(NULL, &pose);
 }
 
+/* The work may stop after any of them. */
+static void each_figure_of_a_refused_frame_stands_for_itself(void) {
+    for (unsigned bit = ROADPOSE_CAN_SUPPORT; bit <= ROADPOSE_CAN_RANGE_FAR; bit <<= 1) {
+        roadpose_pose_t pose;
+        roadpose_can_estimate_t estimate;
+        memset(&pose, 0, sizeof pose);
+        pose.status = ROADPOSE_STATUS_POOR_FIT;
+        pose.support_permille = (bit == ROADPOSE_CAN_SUPPORT) ? 1 : 0;
+        pose.residual_millipx = (bit == ROADPOSE_CAN_RESIDUAL) ? 2 : 0;
+        pose.range_near_mm = (bit == ROADPOSE_CAN_RANGE_NEAR) ? 3 : 0;
+        pose.range_far_mm = (bit == ROADPOSE_CAN_RANGE_FAR) ? 4 : 0;
+        roadpose_can_estimate(&estimate, &pose);
+        TEST_ASSERT_EQUAL_HEX8(bit, estimate.quality.valid);
+        TEST_ASSERT_EQUAL_UINT16(pose.support_permille, estimate.quality.support_permille);
+        TEST_ASSERT_EQUAL_UINT16(pose.residual_millipx, estimate.quality.residual_millipx);
+        TEST_ASSERT_EQUAL_UINT32(pose.range_near_mm, estimate.quality.range_near_mm);
+        TEST_ASSERT_EQUAL_UINT32(pose.range_far_mm, estimate.quality.range_far_mm);
+    }
+}
+
 static void yaw_is_valid_only_with_status_0(void) {
     roadpose_can_estimate_t estimate;
     roadpose_can_estimate(&estimate, NULL);
@@ -188,6 +208,22 @@ static void yaw_is_valid_only_with_status_0(void) {
     TEST_ASSERT_EQUAL_HEX8(0, estimate.quality.valid);
     TEST_ASSERT_EQUAL_UINT8(3, estimate.yaw_status);
     roadpose_can_estimate_yaw(NULL, 5, 0);
+}
+
+static void a_yaw_leaves_the_pose_and_its_figures_alone(void) {
+    roadpose_pose_t pose;
+    roadpose_can_estimate_t estimate;
+    memset(&pose, 0, sizeof pose);
+    pose.observed = ROADPOSE_OBSERVED_PITCH;
+    pose.support_permille = 900;
+    roadpose_can_estimate(&estimate, &pose);
+    roadpose_can_estimate_yaw(&estimate, -34907, 0);
+    TEST_ASSERT_EQUAL_HEX8(31, estimate.quality.valid);
+    TEST_ASSERT_EQUAL_INT32(-34907, estimate.quality.yaw_urad);
+    roadpose_can_estimate_yaw(&estimate, -34907, 2);
+    TEST_ASSERT_EQUAL_HEX8(30, estimate.quality.valid);
+    TEST_ASSERT_EQUAL_HEX8(ROADPOSE_CAN_PITCH, estimate.pose.valid);
+    TEST_ASSERT_EQUAL_UINT16(900, estimate.quality.support_permille);
 }
 
 static void statuses_have_words(void) {
@@ -210,7 +246,9 @@ int main(void) {
     RUN_TEST(lowest_codes_are_all_zeros);
     RUN_TEST(an_estimate_takes_over_what_was_observed_only);
     RUN_TEST(a_refused_frame_keeps_the_figures_it_came_to);
+    RUN_TEST(each_figure_of_a_refused_frame_stands_for_itself);
     RUN_TEST(yaw_is_valid_only_with_status_0);
+    RUN_TEST(a_yaw_leaves_the_pose_and_its_figures_alone);
     RUN_TEST(statuses_have_words);
     return UNITY_END();
 }

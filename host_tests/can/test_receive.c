@@ -104,6 +104,23 @@ static void silence_makes_everything_invalid(void) {
     TEST_ASSERT_EQUAL_HEX8(7, receive.view.pose.valid);
 }
 
+/* From the cycle after the last usable frame on: forgotten in the cycle that the setting says, and not before. */
+static void every_timeout_is_kept(void) {
+    roadpose_can_settings_t settings = receive.settings;
+    for (unsigned timeout = 1; timeout <= 255; timeout++) {
+        begin(ROADPOSE_E2E_PROFILE_1);
+        settings.timeout_cycles = (uint8_t)timeout;
+        TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_receive_init(&receive, &settings));
+        send_cycle(1500000);
+        hear_cycle();
+        for (unsigned cycle = 1; cycle < timeout; cycle++)
+            roadpose_can_receive_cycle(&receive);
+        TEST_ASSERT_EQUAL_HEX8(7, receive.view.pose.valid);
+        roadpose_can_receive_cycle(&receive);
+        nothing_is_known_at_the_start();
+    }
+}
+
 static void damaged_frames_change_nothing_and_count(void) {
     send_cycle(1500000);
     hear_cycle();
@@ -167,6 +184,7 @@ int main(void) {
     RUN_TEST(everything_arrives_in_every_profile);
     RUN_TEST(nothing_is_known_at_the_start);
     RUN_TEST(silence_makes_everything_invalid);
+    RUN_TEST(every_timeout_is_kept);
     RUN_TEST(damaged_frames_change_nothing_and_count);
     RUN_TEST(a_stuck_sender_is_not_believed_for_ever);
     RUN_TEST(lost_frames_are_forgiven_up_to_the_allowance);

@@ -44,6 +44,17 @@ class ReplayLog(unittest.TestCase):
             self.assertEqual(3 * drive.FRAMES, len(text.splitlines()))
             self.assertEqual([], capture.missing_frames(text, self.poses, profile))
 
+    def test_yaw_and_its_status(self):
+        seen = set()
+        for name in ("yaw-left", "yaw-right", "yaw-winding"):
+            recording = pathlib.Path(FIXTURES) / name
+            poses = run(REPLAY, recording).stdout
+            log = run(REPLAY, "--candump", "-", recording).stdout
+            self.assertEqual([], capture.missing_frames(log, poses), name)
+            seen |= {row["yaw_status"] for row in capture.csv.DictReader(poses.splitlines()) if row["yaw_status"]}
+        self.assertIn("ok", seen)
+        self.assertGreater(len(seen), 1, "no yaw was ever refused")
+
     def test_a_log_on_standard_output_is_all_there_is(self):
         log = run(REPLAY, "--candump", "-", self.recording).stdout
         self.assertEqual([], capture.missing_frames(log, self.poses))
@@ -64,6 +75,41 @@ class ReplayLog(unittest.TestCase):
                 if sent[column]:
                     self.assertLessEqual(abs(float(sent[column]) - float(got[column])), most)
         self.assertEqual({"initial/initial/initial", "ok/ok/ok"}, {row["e2e"] for row in heard})
+
+    def heard_without(self, *lost):
+        """What a listener makes of the log when these lines, counted from 0, are lost: [(pitch, e2e)]."""
+        log = run(REPLAY, "--candump", "-", self.recording).stdout.splitlines(keepends=True)[:15]
+        left = "".join(line for number, line in enumerate(log) if number not in lost)
+        rows = capture.csv.DictReader(run(LISTEN, input=left).stdout.splitlines())
+        return [(row["pitch_deg"], row["e2e"]) for row in rows]
+
+    def test_a_listener_has_a_line_for_every_cycle(self):
+        whole = self.heard_without()
+        fine = ["initial/initial/initial"] + ["ok/ok/ok"] * 4
+        self.assertEqual(fine, [e2e for _, e2e in whole])
+        losses = {6: ["no_new_data/ok/ok", "some_lost/ok/ok"], 7: ["ok/no_new_data/ok", "ok/some_lost/ok"],
+                  8: ["ok/ok/no_new_data", "ok/ok/some_lost"]}
+        for lost, words in losses.items():
+            heard = self.heard_without(lost)
+            self.assertEqual(fine[:2] + words + fine[4:], [e2e for _, e2e in heard])
+            pitch = [pitch for pitch, _ in whole]
+            pitch[2] = pitch[1] if lost == 6 else pitch[2]  # held
+            self.assertEqual(pitch, [pitch for pitch, _ in heard])
+        self.assertEqual(fine[:4] + ["ok/ok/no_new_data"], [e2e for _, e2e in self.heard_without(14)])
+
+    def test_a_listener_forgets_in_a_long_silence(self):
+        log = run(REPLAY, "--candump", "-", self.recording).stdout.splitlines(keepends=True)
+        heard = list(capture.csv.DictReader(run(LISTEN, input="".join(log[:6] + log[16:18])).stdout.splitlines()))
+        self.assertEqual(("ok", "", ""), tuple(heard[2][name] for name in ("status", "pitch_deg", "height_m")))
+        self.assertEqual("no_new_data/some_lost/some_lost", heard[2]["e2e"])
+
+    def test_a_listener_that_cannot_read_or_write_says_so(self):
+        self.assertIn(str(self.folder), run(LISTEN, self.folder, expect=3).stderr)
+        if os.path.exists("/dev/full"):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                result = subprocess.run([LISTEN], input="", stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual(1, result.returncode)
+            self.assertIn("cannot be written", result.stderr)
 
     def test_the_comparison_finds_what_is_wrong(self):
         lines = run(REPLAY, "--candump", "-", self.recording).stdout.splitlines(keepends=True)
@@ -92,7 +138,9 @@ class ReplayLog(unittest.TestCase):
                           ["--speed", "-1"], ["--speed", "fast"], ["--speed", "1001"]):
             result = run(REPLAY, *arguments, expect=2)
             self.assertIn("--help", result.stderr)
-        self.assertIn("usage", run(LISTEN, "--profile", "3", expect=2).stderr)
+        for profile in ("3", "257", "1x", "", "01"):
+            self.assertIn("usage", run(LISTEN, "--profile", profile, expect=2).stderr)
+        self.assertIn("usage", run(LISTEN, "--help").stdout)
         self.assertIn("no-such", run(LISTEN, "no-such.log", expect=3).stderr)
 
 

@@ -22,6 +22,7 @@ void setUp(void) {
 void tearDown(void) {
     roadpose_socketcan_close(&can);
     TEST_ASSERT_EQUAL_INT(0, kernel.opened);
+    TEST_ASSERT_FALSE_MESSAGE(kernel.may_block, "a call may have waited");
 }
 
 static void expect_send(roadpose_can_send_t answer) {
@@ -43,15 +44,23 @@ static void frames_reach_the_interface(void) {
     TEST_ASSERT_EQUAL_UINT32(2, can.counts.sent);
 }
 
+static void the_socket_is_asked_for_what_it_needs(void) {
+    open_vcan();
+    TEST_ASSERT_TRUE(kernel.is_nonblocking);
+    TEST_ASSERT_FALSE_MESSAGE(kernel.hears_data, "every frame on the bus wakes us and fills the queue");
+    TEST_ASSERT_EQUAL_HEX32(CAN_ERR_BUSOFF | CAN_ERR_RESTARTED, kernel.error_mask);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, kernel.send_buffer, "a long queue sends old poses");
+}
+
 static void a_missing_interface_is_told_and_waited_for(void) {
     kernel.has_vcan = false;
     TEST_ASSERT_EQUAL_INT(ROADPOSE_SOCKETCAN_NO_INTERFACE, roadpose_socketcan_open(&can, "vcan0"));
     TEST_ASSERT_EQUAL_INT(ENODEV, can.last_errno);
     expect_send(ROADPOSE_CAN_DOWN);
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     expect_send(ROADPOSE_CAN_DOWN);
     kernel.has_vcan = true;
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     expect_send(ROADPOSE_CAN_SENT);
 }
 
@@ -60,7 +69,7 @@ static void a_kernel_without_can_is_told(void) {
     kernel.has_can = false;
     TEST_ASSERT_EQUAL_INT(ROADPOSE_SOCKETCAN_NO_SUPPORT, roadpose_socketcan_open(&can, "vcan0"));
     expect_send(ROADPOSE_CAN_DOWN);
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     TEST_ASSERT_EQUAL_INT(calls, kernel.calls); /* it will not come: nobody asks again */
 }
 
@@ -68,7 +77,7 @@ static void names_that_no_interface_can_have_are_refused(void) {
     TEST_ASSERT_EQUAL_INT(ROADPOSE_SOCKETCAN_BAD_NAME, roadpose_socketcan_open(&can, ""));
     TEST_ASSERT_EQUAL_INT(ROADPOSE_SOCKETCAN_BAD_NAME, roadpose_socketcan_open(&can, "a234567890123456"));
     expect_send(ROADPOSE_CAN_DOWN);
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     TEST_ASSERT_EQUAL_INT(0, kernel.calls);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_SOCKETCAN_NO_INTERFACE, roadpose_socketcan_open(&can, "a23456789012345"));
 }
@@ -111,10 +120,10 @@ static void an_interface_that_vanishes_is_opened_again_when_it_comes_back(void) 
     open_vcan();
     fake_kernel_remove();
     expect_send(ROADPOSE_CAN_DOWN);
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     expect_send(ROADPOSE_CAN_DOWN);
     kernel.has_vcan = true;
-    roadpose_socketcan_recover(&can); /* there, but down */
+    roadpose_socketcan_recover(&can, 0); /* there, but down */
     expect_send(ROADPOSE_CAN_DOWN);
     fake_kernel_set_up(true);
     expect_send(ROADPOSE_CAN_SENT);
@@ -125,7 +134,7 @@ static void bus_off_lasts_until_the_restart(void) {
     open_vcan();
     fake_kernel_report(CAN_ERR_BUSOFF);
     expect_send(ROADPOSE_CAN_BUS_OFF);
-    roadpose_socketcan_recover(&can);
+    roadpose_socketcan_recover(&can, 0);
     expect_send(ROADPOSE_CAN_BUS_OFF);
     fake_kernel_report(CAN_ERR_RESTARTED);
     expect_send(ROADPOSE_CAN_SENT);
@@ -139,6 +148,84 @@ static void bus_off_ends_when_the_interface_is_taken_down(void) {
     fake_kernel_set_up(false);
     fake_kernel_set_up(true);
     expect_send(ROADPOSE_CAN_SENT);
+}
+
+/* A script that restarts the interface on bus-off is quicker than our next frame: we hear of the end first. */
+static void bus_off_that_is_heard_of_too_late_does_not_last_for_ever(void) {
+    open_vcan();
+    fake_kernel_report(CAN_ERR_BUSOFF);
+    fake_kernel_set_up(false);
+    fake_kernel_set_up(true);
+    expect_send(ROADPOSE_CAN_SENT);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 100000);
+    roadpose_socketcan_recover(&can, 2099999);
+    expect_send(ROADPOSE_CAN_BUS_OFF); /* Linux may not know yet that the carrier is gone */
+    roadpose_socketcan_recover(&can, 2100000);
+    expect_send(ROADPOSE_CAN_SENT);
+}
+
+static void bus_off_lasts_as_long_as_there_is_no_carrier(void) {
+    open_vcan();
+    kernel.has_no_carrier = true;
+    fake_kernel_report(CAN_ERR_BUSOFF);
+    for (uint64_t now_us = 0; now_us < 5000000; now_us += 100000) {
+        expect_send(ROADPOSE_CAN_BUS_OFF);
+        roadpose_socketcan_recover(&can, now_us);
+    }
+    TEST_ASSERT_EQUAL_INT(0, kernel.frames);
+    kernel.has_no_carrier = false;
+    roadpose_socketcan_recover(&can, 5000000);
+    expect_send(ROADPOSE_CAN_SENT);
+    fake_kernel_report(CAN_ERR_BUSOFF); /* again: the two seconds begin again */
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 5100000);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+}
+
+static void an_interface_that_is_bus_off_from_the_start_is_told(void) {
+    kernel.has_no_carrier = true;
+    open_vcan();
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    TEST_ASSERT_EQUAL_INT(0, kernel.frames); /* they would have been lost without a word */
+    fake_kernel_report(CAN_ERR_RESTARTED);
+    expect_send(ROADPOSE_CAN_SENT);
+    roadpose_socketcan_close(&can);
+    kernel.is_up = false;
+    open_vcan();
+    expect_send(ROADPOSE_CAN_DOWN); /* not bus-off: down */
+    fake_kernel_set_up(true);
+    expect_send(ROADPOSE_CAN_SENT);
+}
+
+/* An adapter is unplugged and plugged in again; the new one has its own two seconds. */
+static void bus_off_ends_when_the_interface_vanishes(void) {
+    open_vcan();
+    fake_kernel_report(CAN_ERR_BUSOFF);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 0);
+    fake_kernel_remove();
+    expect_send(ROADPOSE_CAN_DOWN);
+    kernel.has_vcan = true;
+    kernel.has_no_carrier = true;
+    fake_kernel_set_up(true);
+    roadpose_socketcan_recover(&can, 5000000);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    kernel.has_no_carrier = false;
+    roadpose_socketcan_recover(&can, 5100000);
+    expect_send(ROADPOSE_CAN_BUS_OFF);
+    roadpose_socketcan_recover(&can, 7100000);
+    expect_send(ROADPOSE_CAN_SENT);
+}
+
+static void what_is_closed_stays_closed(void) {
+    open_vcan();
+    roadpose_socketcan_close(&can);
+    const int calls = kernel.calls;
+    roadpose_socketcan_recover(&can, 0);
+    expect_send(ROADPOSE_CAN_DOWN);
+    roadpose_socketcan_close(&can);
+    TEST_ASSERT_EQUAL_INT(calls, kernel.calls);
 }
 
 static void every_result_has_words(void) {
@@ -204,6 +291,7 @@ static void any_call_may_fail_with_any_error(void) {
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(frames_reach_the_interface);
+    RUN_TEST(the_socket_is_asked_for_what_it_needs);
     RUN_TEST(a_missing_interface_is_told_and_waited_for);
     RUN_TEST(a_kernel_without_can_is_told);
     RUN_TEST(names_that_no_interface_can_have_are_refused);
@@ -213,6 +301,11 @@ int main(void) {
     RUN_TEST(an_interface_that_vanishes_is_opened_again_when_it_comes_back);
     RUN_TEST(bus_off_lasts_until_the_restart);
     RUN_TEST(bus_off_ends_when_the_interface_is_taken_down);
+    RUN_TEST(bus_off_that_is_heard_of_too_late_does_not_last_for_ever);
+    RUN_TEST(bus_off_lasts_as_long_as_there_is_no_carrier);
+    RUN_TEST(an_interface_that_is_bus_off_from_the_start_is_told);
+    RUN_TEST(bus_off_ends_when_the_interface_vanishes);
+    RUN_TEST(what_is_closed_stays_closed);
     RUN_TEST(every_result_has_words);
     RUN_TEST(any_call_may_fail_with_any_error);
     return UNITY_END();

@@ -55,6 +55,28 @@ static void overwritten_frames_are_reported(void) {
     TEST_ASSERT_EQUAL_UINT32(1, roadpose_can_transmit_counts(&port.transmit)->estimates);
 }
 
+static uint32_t cycles_in(uint64_t period_us, unsigned tasks) {
+    begin();
+    for (unsigned i = 0; i < tasks; i++)
+        roadpose_template_task(&port, i * period_us);
+    return roadpose_can_transmit_counts(&port.transmit)->cycles;
+}
+
+/* Just under ten seconds each. */
+static void the_cycle_does_not_depend_on_the_period_of_the_task(void) {
+    TEST_ASSERT_EQUAL_UINT32(100, cycles_in(1000, 10000));
+    TEST_ASSERT_EQUAL_UINT32(100, cycles_in(30000, 333));
+    TEST_ASSERT_EQUAL_UINT32(100, cycles_in(99999, 101));
+    TEST_ASSERT_EQUAL_UINT32(20, cycles_in(500000, 20)); /* too rare: one each, and none made up for */
+}
+
+static void a_clock_that_is_set_back_does_not_stop_the_cycle(void) {
+    begin();
+    drive(1000, UINT64_C(3600000000));
+    drive(1000, 0);
+    TEST_ASSERT_EQUAL_UINT32(20, roadpose_can_transmit_counts(&port.transmit)->cycles);
+}
+
 static void its_memory_over_power_off_is_empty(void) {
     const roadpose_store_port_t memory = roadpose_template_store_port();
     uint8_t byte = 7;
@@ -68,6 +90,8 @@ int main(void) {
     RUN_TEST(a_frame_becomes_an_estimate);
     RUN_TEST(a_frame_of_another_size_is_reported);
     RUN_TEST(overwritten_frames_are_reported);
+    RUN_TEST(the_cycle_does_not_depend_on_the_period_of_the_task);
+    RUN_TEST(a_clock_that_is_set_back_does_not_stop_the_cycle);
     RUN_TEST(its_memory_over_power_off_is_empty);
     return UNITY_END();
 }

@@ -1,4 +1,5 @@
 /* The sender: what goes out in which cycle. */
+#include <limits.h>
 #include <string.h>
 
 #include "fake_bus.h"
@@ -99,6 +100,18 @@ static void an_estimate_dated_after_its_cycle_is_not_old(void) {
     TEST_ASSERT_EQUAL_HEX8(7, sent_pose(0).valid);
 }
 
+/* A camera with a clock of its own, or a clock that was set back: nobody can tell how old the pose is. */
+static void an_estimate_of_another_clock_is_not_new_for_ever(void) {
+    publish(1500000, 0);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us - CYCLE_US));
+    TEST_ASSERT_EQUAL_HEX8(7, sent_pose(0).valid);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, roadpose_can_transmit_cycle(&transmit, now_us - CYCLE_US - 1u));
+    TEST_ASSERT_EQUAL_HEX8(0, sent_pose(1).valid);
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_CAN_STATUS_NO_FRAME, sent_status(1).pose_status);
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle()); /* nor does it come back */
+    TEST_ASSERT_EQUAL_HEX8(0, sent_pose(2).valid);
+}
+
 static void counters_start_at_the_constant_and_run_over(void) {
     for (int i = 0; i < 40; i++)
         TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
@@ -133,7 +146,29 @@ static void a_full_queue_after_an_outage_is_a_bus_again(void) {
     TEST_ASSERT_EQUAL_UINT32(1, roadpose_can_transmit_counts(&transmit)->recovered);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
     TEST_ASSERT_EQUAL_UINT(1, bus.recovers);
-    TEST_ASSERT_EQUAL_UINT8(1, fake_frame_counter(&bus.frame[0])); /* one cycle was lost, one only waited */
+    /* One cycle was lost, one only waited. */
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_E2E_FIRST_COUNTER + 1, fake_frame_counter(&bus.frame[0]));
+}
+
+static void expect_down(roadpose_can_send_t answer, uint32_t down, uint32_t bus_off) {
+    bus.fail_from = 1;
+    bus.fail_to = UINT_MAX;
+    bus.fail_with = answer;
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_NO_BUS, cycle());
+    TEST_ASSERT_EQUAL_UINT32(down, roadpose_can_transmit_counts(&transmit)->down);
+    TEST_ASSERT_EQUAL_UINT32(bus_off, roadpose_can_transmit_counts(&transmit)->bus_off);
+}
+
+static void bus_off_is_counted_whatever_was_before(void) {
+    expect_down(ROADPOSE_CAN_DOWN, 1, 0);
+    expect_down(ROADPOSE_CAN_BUS_OFF, 1, 1);
+    expect_down(ROADPOSE_CAN_BUS_OFF, 1, 1);
+    expect_down(ROADPOSE_CAN_DOWN, 1, 1);
+    expect_down(ROADPOSE_CAN_BUS_OFF, 1, 2);
+    bus.fail_to = 0;
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
+    TEST_ASSERT_EQUAL_UINT32(1, roadpose_can_transmit_counts(&transmit)->recovered);
+    expect_down(ROADPOSE_CAN_BUS_OFF, 2, 3);
 }
 
 static void after_the_deadline_nothing_old_is_sent(void) {
@@ -148,7 +183,8 @@ static void after_the_deadline_nothing_old_is_sent(void) {
     publish(2000000, 0);
     TEST_ASSERT_EQUAL_INT(ROADPOSE_CAN_DONE, cycle());
     TEST_ASSERT_EQUAL_INT32(2000000, sent_pose(0).height_um);
-    TEST_ASSERT_EQUAL_UINT8(0, fake_frame_counter(&bus.frame[0])); /* never sent, so its counter was free */
+    /* Never sent, so its counter was free. */
+    TEST_ASSERT_EQUAL_UINT8(ROADPOSE_E2E_FIRST_COUNTER, fake_frame_counter(&bus.frame[0]));
     TEST_ASSERT_EQUAL_UINT32(3, sent_status(0).dropped_count);
 }
 
@@ -185,6 +221,8 @@ static void every_setting_has_its_range(void) {
     EXPECT_REFUSED(settings.id[1] = ROADPOSE_CAN_EXTENDED | 0x20000000u);
     EXPECT_REFUSED(settings.id[2] = settings.id[0]);
     EXPECT_REFUSED(settings.id[2] = settings.id[1]);
+    EXPECT_REFUSED(settings.e2e[2].data_id = settings.e2e[0].data_id);
+    EXPECT_REFUSED(settings.e2e[1].data_id = settings.e2e[0].data_id);
     EXPECT_REFUSED(settings.e2e[1].profile = 4);
     EXPECT_REFUSED(settings.e2e[2].max_delta = 0);
     EXPECT_REFUSED(settings.cycle_us = 999);
@@ -222,11 +260,28 @@ static void lists_of_profile_2_never_agree(void) {
     }
 }
 
+/* Only what the profile uses is compared. */
+static void messages_must_not_be_taken_for_each_other(void) {
+    roadpose_can_settings_t settings;
+    TEST_ASSERT_TRUE(roadpose_can_settings_default(&settings, ROADPOSE_E2E_PROFILE_2));
+    settings.e2e[1].data_id = settings.e2e[0].data_id;
+    TEST_ASSERT_TRUE(roadpose_can_settings_valid(&settings));
+    for (unsigned i = 0; i < ROADPOSE_E2E_LIST_ENTRIES; i++) {
+        const uint8_t entry = settings.e2e[2].data_id_list[i];
+        settings.e2e[2].data_id_list[i] = settings.e2e[1].data_id_list[i];
+        TEST_ASSERT_FALSE(roadpose_can_settings_valid(&settings));
+        settings.e2e[2].data_id_list[i] = entry;
+    }
+    settings.e2e[1].profile = ROADPOSE_E2E_PROFILE_5;
+    TEST_ASSERT_TRUE(roadpose_can_settings_valid(&settings));
+}
+
 static void a_default_with_an_unknown_profile_changes_nothing(void) {
     roadpose_can_settings_t settings, before;
     memset(&settings, 0x5A, sizeof settings);
     before = settings;
     TEST_ASSERT_FALSE(roadpose_can_settings_default(&settings, (roadpose_e2e_profile_t)3));
+    TEST_ASSERT_FALSE(roadpose_can_settings_default(&settings, (roadpose_e2e_profile_t)257)); /* 1 in eight bits */
     TEST_ASSERT_EQUAL_MEMORY(&before, &settings, sizeof settings);
 }
 
@@ -237,14 +292,17 @@ int main(void) {
     RUN_TEST(an_estimate_is_held_until_it_is_too_old);
     RUN_TEST(an_estimate_of_exactly_the_largest_age_is_sent);
     RUN_TEST(an_estimate_dated_after_its_cycle_is_not_old);
+    RUN_TEST(an_estimate_of_another_clock_is_not_new_for_ever);
     RUN_TEST(counters_start_at_the_constant_and_run_over);
     RUN_TEST(a_full_queue_is_tried_again_until_the_cycle_ends);
     RUN_TEST(a_full_queue_after_an_outage_is_a_bus_again);
+    RUN_TEST(bus_off_is_counted_whatever_was_before);
     RUN_TEST(after_the_deadline_nothing_old_is_sent);
     RUN_TEST(settings_and_pointers_are_checked);
     RUN_TEST(every_setting_has_its_range);
     RUN_TEST(the_ends_of_the_ranges_are_allowed);
     RUN_TEST(lists_of_profile_2_never_agree);
+    RUN_TEST(messages_must_not_be_taken_for_each_other);
     RUN_TEST(a_default_with_an_unknown_profile_changes_nothing);
     return UNITY_END();
 }

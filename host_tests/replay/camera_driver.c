@@ -8,7 +8,7 @@
 static const roadpose_rig_t rig = {DRIVER_WIDTH, DRIVER_HEIGHT, 60000, 31500, 31500, 300000};
 
 /* A level road; each scene sees it from another row on, which shows in the support figures whatever the pose. */
-static void draw(uint16_t *samples, uint32_t frame) {
+void driver_draw(uint16_t *samples, uint32_t frame) {
     const int first_row = 36 + 6 * (int)(frame % DRIVER_SCENES);
 
     for (int row = 0; row < DRIVER_HEIGHT; row++)
@@ -32,7 +32,7 @@ roadpose_pose_t driver_expected_pose(uint32_t frame) {
     const roadpose_frame_t whole = {samples, 2 * DRIVER_WIDTH, DRIVER_WIDTH, DRIVER_HEIGHT, NULL, 0};
 
     if (!is_known[scene]) {
-        draw(samples, scene);
+        driver_draw(samples, scene);
         start_estimator(&estimator);
         TEST_ASSERT_EQUAL_INT(ROADPOSE_OK, roadpose_process(&estimator, &whole, &poses[scene]));
         is_known[scene] = true;
@@ -174,7 +174,7 @@ void driver_interrupt(roadpose_camera_context_t *driver, frame_kind_t kind) {
 
     TEST_ASSERT_TRUE_MESSAGE(id < DRIVER_FRAMES, "the ledger is full");
     driver->is_in_interrupt = true;
-    draw(driver->buffers[driver->filling], id);
+    driver_draw(driver->buffers[driver->filling], id);
     driver->is_lent[driver->filling] = true;
     driver->owner[id] = OWNER_PORT;
     driver->buffer[id] = (uint8_t)driver->filling;

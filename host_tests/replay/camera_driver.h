@@ -56,6 +56,9 @@ void driver_pass_point(roadpose_camera_context_t *driver);
 /* Flushes the port, then fails unless every frame came back and the counters add up. */
 void driver_stop(roadpose_camera_context_t *driver);
 
+/* What the frame shows, DRIVER_SAMPLES samples. */
+void driver_draw(uint16_t *samples, uint32_t frame);
+
 /* The pose that a whole-frame call gives for a scene. */
 roadpose_pose_t driver_expected_pose(uint32_t frame);
 

@@ -200,6 +200,17 @@ static void test_the_cache_of_the_confidence_image_is_invalidated_too(void) {
                              driver.invalidated_bytes[1]);
 }
 
+/* Its pointer and stride are checked by nobody. */
+static void test_the_cache_of_a_confidence_image_that_is_not_used_is_left_alone(void) {
+    const roadpose_frame_t frame = {driver.buffers[1], 2 * DRIVER_WIDTH, DRIVER_WIDTH,
+                                    DRIVER_HEIGHT,     &driver,          UINT32_MAX};
+
+    TEST_ASSERT_TRUE(roadpose_camera_frame_ready(&driver.port, &frame, 0, 0));
+    TEST_ASSERT_EQUAL_INT(ROADPOSE_CAMERA_WORKING, roadpose_camera_task(&driver.port, 1));
+    TEST_ASSERT_EQUAL_UINT32(1, driver.invalidations);
+    TEST_ASSERT_EQUAL_PTR(driver.buffers[1], driver.invalidated[0]);
+}
+
 static void test_optional_callbacks_may_be_absent(void) {
     roadpose_camera_platform_t platform = driver_platform(&driver);
 
@@ -251,6 +262,7 @@ int main(void) {
     RUN_TEST(test_an_estimator_that_works_on_another_frame);
     RUN_TEST(test_the_cache_is_invalidated_once_before_the_first_slice);
     RUN_TEST(test_the_cache_of_the_confidence_image_is_invalidated_too);
+    RUN_TEST(test_the_cache_of_a_confidence_image_that_is_not_used_is_left_alone);
     RUN_TEST(test_optional_callbacks_may_be_absent);
     RUN_TEST(test_flush_gives_everything_back);
     RUN_TEST(test_the_scenes_differ);

@@ -23,8 +23,9 @@
  * | status  | overwritten count     | 48|8  | 0        | 1        | 254        | overwritten_count, modulo 255    |
  * | status  | dropped count         | 56|8  | 0        | 1        | 254        | dropped_count, modulo 255        |
  *
- * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time. No heap, no
- * floating point, no clock. Numbers are rounded to the nearest code.
+ * Every function is re-entrant; one transmitter or receiver must not be used by two tasks at a time, so publishing, cycle
+ * and poll belong to one task, or need the platform's lock. No heap, no floating point, no clock. Numbers are rounded to
+ * the nearest code.
  */
 #ifndef ROADPOSE_CAN_H
 #define ROADPOSE_CAN_H
@@ -132,7 +133,8 @@ typedef struct {
  * unchanged, on NULL or an unknown profile. Constant time. */
 bool roadpose_can_settings_default(roadpose_can_settings_t *settings, roadpose_e2e_profile_t profile);
 
-/* True when every field is in its range and the identifiers differ. False on NULL. */
+/* True when every field is in its range, the identifiers differ, and the data identifiers of messages with the same
+ * profile differ (of profile 2 at every counter). False on NULL. Constant time. */
 bool roadpose_can_settings_valid(const roadpose_can_settings_t *settings);
 
 /* ------------------------------------------------------------------------------------------------------ sender */
@@ -164,8 +166,8 @@ typedef struct {
     uint32_t full;      /* times that the port answered FULL */
     uint32_t dropped;   /* CAN frames given up: never taken, and replaced by the next cycle's */
     uint32_t down;      /* times that the bus went down, bus-off included */
-    uint32_t bus_off;   /* of those, times bus-off */
-    uint32_t recovered; /* times that a frame was taken again after the bus had been down */
+    uint32_t bus_off;   /* times that it became bus-off, from up or from down */
+    uint32_t recovered; /* times that the bus was there again: it took a frame, or had no room for one */
 } roadpose_can_counts_t;
 
 /* One frame that waits for the port. Private members. */
@@ -185,6 +187,7 @@ typedef struct {
     uint64_t start_us; /* of the cycle */
     bool has_estimate;
     bool bus_down; /* last answer of can_send */
+    bool bus_off;  /* likewise */
     roadpose_can_slot_t slot[ROADPOSE_CAN_MESSAGES];
     roadpose_can_counts_t counts;
 } roadpose_can_transmit_t;
@@ -206,10 +209,12 @@ roadpose_can_result_t roadpose_can_transmit_init(roadpose_can_transmit_t *transm
                                                  const roadpose_can_port_t *port);
 
 /* Hands over the newest estimate, which is copied, and how many camera frames were overwritten so far
- * (roadpose_can_counts_t.overwritten is set to it). Replaces the one before, sent or not. now_us: when it became
- * known. Nothing is sent: the next cycle does. Does nothing on NULL. Constant time. */
+ * (roadpose_can_counts_t.overwritten is set to it). Replaces the one before, sent or not. time_us: from when on its age
+ * counts, on the clock of roadpose_can_transmit_cycle(): the exposure where the camera is stamped by that clock, else
+ * when the pose became known. Dated more than cycle_us ahead of the cycle that would send it, its age cannot be told,
+ * and it is treated as too old. Nothing is sent: the next cycle does. Does nothing on NULL. Constant time. */
 void roadpose_can_transmit_publish(roadpose_can_transmit_t *transmit, const roadpose_can_estimate_t *estimate,
-                                   uint32_t overwritten, uint64_t now_us);
+                                   uint32_t overwritten, uint64_t time_us);
 
 /* Begins a cycle: gives up what still waits from the last one, packs the newest estimate, protects, and offers the
  * three frames. Call it every cycle_us, also when there is no new estimate; max_age_us then says for how long the last
@@ -245,7 +250,7 @@ typedef struct {
     roadpose_can_settings_t settings;
     roadpose_e2e_receiver_t receiver[ROADPOSE_CAN_MESSAGES];
     bool arrived[ROADPOSE_CAN_MESSAGES];   /* a frame in this cycle */
-    uint8_t missed[ROADPOSE_CAN_MESSAGES]; /* cycles since the last usable frame */
+    uint16_t missed[ROADPOSE_CAN_MESSAGES]; /* cycles since the last usable frame; wider than timeout_cycles */
     roadpose_can_view_t view;
 } roadpose_can_receive_t;
 
@@ -254,7 +259,7 @@ typedef struct {
 roadpose_can_result_t roadpose_can_receive_init(roadpose_can_receive_t *receive,
                                                 const roadpose_can_settings_t *settings);
 
-/* Takes one frame from the bus. Returns which message it was, NONE for an identifier that is not ours or on NULL;
+/* Takes one data frame from the bus (no remote frame). Returns which message it was, NONE for an identifier that is not ours or on NULL;
  * receive->view.e2e[message] tells whether it could be used; only then were its signals taken over. A frame of ours
  * whose length is not 8 counts as a CRC error. Constant time. */
 roadpose_can_message_t roadpose_can_receive_frame(roadpose_can_receive_t *receive, uint32_t id, const uint8_t *data,

@@ -45,7 +45,8 @@ typedef enum {
 /* Protection of one message. Sender and receiver must have the same profile and identifiers. */
 typedef struct {
     uint8_t profile;   /* roadpose_e2e_profile_t */
-    uint8_t max_delta; /* receiver: largest step of the counter that still counts as "some lost", 1...14 */
+    uint8_t max_delta; /* receiver: largest step of the counter that still counts as "some lost", 1...14. AUTOSAR's
+                          MaxDeltaCounterInit of profiles 1 and 2 is one less, its MaxDeltaCounter of 5 is this */
     uint16_t data_id;  /* profiles 1 and 5: unique among the messages of the network */
     uint8_t data_id_list[ROADPOSE_E2E_LIST_ENTRIES]; /* profile 2 */
 } roadpose_e2e_config_t;
@@ -81,9 +82,9 @@ typedef struct {
 } roadpose_e2e_receiver_t;
 
 /* Judges what arrived in this cycle. data: the 8 bytes, or NULL when nothing arrived. Call it once for each frame that
- * arrived, and once with NULL for each cycle in which none did: every cycle without a frame widens the allowance
- * max_delta by one, so an outage that the receiver has seen is SOME_LOST and not WRONG_SEQUENCE; the allowance never
- * grows beyond the counter's range less one. config or receiver NULL, or a profile that is unknown: CRC_ERROR.
+ * arrived, and once with NULL for each cycle in which none did: every cycle without a frame, and every frame that is
+ * damaged or repeated, widens the allowance max_delta by one, so an outage that the receiver has seen is SOME_LOST and not
+ * WRONG_SEQUENCE; the allowance never grows beyond the counter's range less one. config or receiver NULL, or a profile that is unknown: CRC_ERROR.
  * A frame is usable when roadpose_e2e_usable() says so. */
 roadpose_e2e_status_t roadpose_e2e_check(const roadpose_e2e_config_t *config, roadpose_e2e_receiver_t *receiver,
                                          const uint8_t *data);

@@ -1,5 +1,7 @@
-/* roadpose: keeping a few bytes over power-off. Optional: the estimator of live poses needs none of it; it is for what
- * is learnt over a drive. Fill it in when the platform has memory for it, leave it out otherwise.
+/* roadpose: keeping a few bytes over power-off. Optional: the estimator of live poses needs none of it, and the library
+ * calls neither function. It is the contract between the platform and an application that learns over a drive (a mount
+ * pose, the running yaw): fill it in when there is memory for it, leave it out otherwise. A record has no checksum of
+ * the library's: the platform answers for it being complete, the application for it being of its own version.
  */
 #ifndef ROADPOSE_STORE_PORT_H
 #define ROADPOSE_STORE_PORT_H

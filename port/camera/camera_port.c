@@ -80,9 +80,13 @@ static void invalidate(const roadpose_camera_port_t *port, const void *address, 
                                         gaps * stride_bytes + 2u * (size_t)frame->width_px);
 }
 
+/* Of the buffers that begin has checked. A confidence image that the format does not use has been let go of there: its
+ * pointer and stride may be anything, and to drop cache lines by them would destroy other data. */
 static void begin_reading(const roadpose_camera_port_t *port) {
-    invalidate(port, port->work.frame.samples, port->work.frame.stride_bytes);
-    invalidate(port, port->work.frame.confidence, port->work.frame.confidence_stride_bytes);
+    const roadpose_frame_t *checked = &port->instance->frame;
+
+    invalidate(port, checked->samples, checked->stride_bytes);
+    invalidate(port, checked->confidence, checked->confidence_stride_bytes);
 }
 
 static roadpose_camera_progress_t refuse(roadpose_camera_port_t *port, roadpose_result_t reason) {

@@ -88,7 +88,7 @@ static void end_cycle(roadpose_can_receive_t *receive, unsigned message) {
             (uint8_t)roadpose_e2e_check(&receive->settings.e2e[message], &receive->receiver[message], NULL);
     }
     receive->arrived[message] = false;
-    if (receive->missed[message] < UINT8_MAX) {
+    if (receive->missed[message] < UINT16_MAX) {
         receive->missed[message]++;
     }
     if (receive->missed[message] > receive->settings.timeout_cycles) {

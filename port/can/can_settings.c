@@ -15,7 +15,8 @@ static void fill_list(uint8_t list[ROADPOSE_E2E_LIST_ENTRIES], unsigned message)
 }
 
 bool roadpose_can_settings_default(roadpose_can_settings_t *settings, roadpose_e2e_profile_t profile) {
-    if ((settings == NULL) || (roadpose_e2e_next_counter((uint8_t)profile, 0u) == 0u)) {
+    bool fits = ((unsigned)profile <= UINT8_MAX) && (roadpose_e2e_next_counter((uint8_t)profile, 0u) != 0u);
+    if ((settings == NULL) || !fits) {
         return false; /* a profile whose counter does not move is not one */
     }
     for (unsigned message = 0; message < ROADPOSE_CAN_MESSAGES; message++) {
@@ -37,6 +38,19 @@ static bool id_valid(uint32_t id) {
     return (id & ~mask) == 0u;
 }
 
+/* Two messages with one data identifier could be taken for each other, and no checksum would tell. Profile 2 uses the
+ * list's entry of the counter, the others data_id. Messages of different profiles differ by their checksums. */
+static bool data_ids_differ(const roadpose_e2e_config_t *one, const roadpose_e2e_config_t *other) {
+    if ((one->profile != other->profile) || (one->profile != (uint8_t)ROADPOSE_E2E_PROFILE_2)) {
+        return (one->profile != other->profile) || (one->data_id != other->data_id);
+    }
+    bool differ = true;
+    for (unsigned counter = 0; counter < ROADPOSE_E2E_LIST_ENTRIES; counter++) {
+        differ = differ && (one->data_id_list[counter] != other->data_id_list[counter]);
+    }
+    return differ;
+}
+
 bool roadpose_can_settings_valid(const roadpose_can_settings_t *settings) {
     if (settings == NULL) {
         return false;
@@ -44,9 +58,10 @@ bool roadpose_can_settings_valid(const roadpose_can_settings_t *settings) {
     bool valid = (settings->cycle_us >= 1000u) && (settings->cycle_us <= 10000000u) &&
                  (settings->max_age_us <= 600000000u) && (settings->timeout_cycles >= 1u);
     for (unsigned message = 0; message < ROADPOSE_CAN_MESSAGES; message++) {
-        uint32_t next_id = settings->id[(message + 1u) % ROADPOSE_CAN_MESSAGES];
-        valid = valid && id_valid(settings->id[message]) && (settings->id[message] != next_id) &&
-                roadpose_e2e_config_valid(&settings->e2e[message]);
+        unsigned next = (message + 1u) % ROADPOSE_CAN_MESSAGES;
+        valid = valid && id_valid(settings->id[message]) && (settings->id[message] != settings->id[next]) &&
+                roadpose_e2e_config_valid(&settings->e2e[message]) &&
+                data_ids_differ(&settings->e2e[message], &settings->e2e[next]);
     }
     return valid;
 }

@@ -30,12 +30,12 @@ roadpose_can_result_t roadpose_can_transmit_init(roadpose_can_transmit_t *transm
 }
 
 void roadpose_can_transmit_publish(roadpose_can_transmit_t *transmit, const roadpose_can_estimate_t *estimate,
-                                   uint32_t overwritten, uint64_t now_us) {
+                                   uint32_t overwritten, uint64_t time_us) {
     if ((transmit == NULL) || (estimate == NULL)) {
         return;
     }
     transmit->newest = *estimate;
-    transmit->newest_us = now_us;
+    transmit->newest_us = time_us;
     transmit->has_estimate = true;
     transmit->counts.estimates++;
     transmit->counts.overwritten = overwritten;
@@ -67,10 +67,13 @@ static void give_up_waiting(roadpose_can_transmit_t *transmit) {
     }
 }
 
-/* An estimate may be dated a little after the cycle that sends it, where the caller takes the time once a task. */
+/* An estimate may be dated a little after the cycle that sends it, where the caller takes the time once a task. Dated
+ * further ahead it has another clock, or the clock was set back: its age cannot be told, so it must not count as new. */
 static void forget_stale(roadpose_can_transmit_t *transmit, uint64_t now_us) {
-    uint64_t age_us = (now_us > transmit->newest_us) ? (now_us - transmit->newest_us) : 0u;
-    if (age_us > transmit->settings.max_age_us) {
+    bool ahead = transmit->newest_us > now_us;
+    uint64_t apart_us = ahead ? (transmit->newest_us - now_us) : (now_us - transmit->newest_us);
+    uint32_t allowed_us = ahead ? transmit->settings.cycle_us : transmit->settings.max_age_us;
+    if (apart_us > allowed_us) {
         transmit->has_estimate = false;
     }
 }
@@ -103,32 +106,33 @@ static void make_frames(roadpose_can_transmit_t *transmit) {
     }
 }
 
+static void note_bus(roadpose_can_transmit_t *transmit) {
+    if (transmit->bus_down) {
+        transmit->counts.recovered++;
+    }
+    transmit->bus_down = false;
+    transmit->bus_off = false;
+}
+
 static void note_sent(roadpose_can_transmit_t *transmit, unsigned message) {
     transmit->slot[message].waits = false;
     transmit->slot[message].sent = transmit->slot[message].counter;
     step_counter(transmit, message);
     transmit->counts.sent++;
-    if (transmit->bus_down) {
-        transmit->bus_down = false;
-        transmit->counts.recovered++;
-    }
+    note_bus(transmit);
 }
 
 static void note_no_bus(roadpose_can_transmit_t *transmit, bool bus_off) {
-    if (!transmit->bus_down) {
-        transmit->bus_down = true;
-        transmit->counts.down++;
-        transmit->counts.bus_off += bus_off ? 1u : 0u;
-    }
+    transmit->counts.down += transmit->bus_down ? 0u : 1u;
+    transmit->counts.bus_off += (bus_off && !transmit->bus_off) ? 1u : 0u;
+    transmit->bus_down = true;
+    transmit->bus_off = bus_off;
 }
 
 /* A bus that answers "full" is not down: it will take the frame. */
 static roadpose_can_result_t note_full(roadpose_can_transmit_t *transmit) {
     transmit->counts.full++;
-    if (transmit->bus_down) {
-        transmit->bus_down = false;
-        transmit->counts.recovered++;
-    }
+    note_bus(transmit);
     return ROADPOSE_CAN_WAITING;
 }
 

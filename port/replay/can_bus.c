@@ -66,15 +66,44 @@ static void report_changes(can_bus_t *bus) {
     const roadpose_can_counts_t *counts = roadpose_can_transmit_counts(&bus->transmit);
 
     if (counts->down != bus->reported.down)
-        (void)fault(bus->interface, "%s; CAN frames are dropped until it is back",
-                    counts->bus_off != bus->reported.bus_off ? "bus-off" : "down");
+        (void)fault(bus->interface, "down (%s); CAN frames are dropped until it is back",
+                    counts->bus_off != bus->reported.bus_off ? "bus-off" : strerror(bus->output.bus.last_errno));
+    else if (counts->bus_off != bus->reported.bus_off)
+        (void)fault(bus->interface, "bus-off");
     if (counts->recovered != bus->reported.recovered)
         (void)fault(bus->interface, "back; %" PRIu32 " CAN frames dropped so far", counts->dropped);
     bus->reported = *counts;
 }
 
+/* What the last cycle left behind while the bus was there, the queue had no room for. */
+static void report_queue(can_bus_t *bus, bool was_down) {
+    const roadpose_can_counts_t *counts = roadpose_can_transmit_counts(&bus->transmit);
+    const bool has_dropped = counts->dropped != bus->dropped;
+
+    bus->dropped = counts->dropped;
+    if (was_down)
+        return;
+    if (has_dropped && !bus->is_full)
+        (void)fault(bus->interface, "its queue is full; CAN frames are dropped until there is room");
+    if (bus->is_full && !has_dropped)
+        (void)fault(bus->interface, "its queue has room again; %" PRIu32 " CAN frames dropped so far", counts->dropped);
+    bus->is_full = has_dropped;
+}
+
+static bool report_log(can_bus_t *bus) {
+    const int error = bus->output.log.error;
+
+    if (error != 0 && !bus->is_log_reported)
+        (void)fault(strcmp(bus->log_path, "-") == 0 ? "standard output" : bus->log_path, "cannot be written: %s",
+                    strerror(error));
+    bus->is_log_reported = error != 0;
+    return error == 0;
+}
+
 static bool waits(can_bus_t *bus, roadpose_can_result_t result) {
     report_changes(bus);
+    (void)report_log(bus);
+    bus->is_down = result == ROADPOSE_CAN_NO_BUS;
     return result == ROADPOSE_CAN_WAITING;
 }
 
@@ -85,7 +114,9 @@ bool can_bus_cycle(can_bus_t *bus, uint64_t time_us) {
     if (bus->has_estimate)
         roadpose_can_transmit_publish(&bus->transmit, &bus->estimate, 0, time_us); /* no frame is ever displaced here */
     bus->has_estimate = false;
-    return waits(bus, roadpose_can_transmit_cycle(&bus->transmit, time_us));
+    const roadpose_can_result_t result = roadpose_can_transmit_cycle(&bus->transmit, time_us);
+    report_queue(bus, bus->is_down);
+    return waits(bus, result);
 }
 
 bool can_bus_poll(can_bus_t *bus, uint64_t time_us) {
@@ -105,14 +136,11 @@ static void report_end(const can_bus_t *bus) {
 }
 
 bool can_bus_close(can_bus_t *bus) {
-    bool is_complete = true;
-
     if (!bus->is_on)
         return true;
     if (bus->interface != NULL && bus->transmit.counts.cycles > 0)
         report_end(bus);
-    if (!roadpose_can_output_close(&bus->output))
-        is_complete = fault(bus->log_path, "cannot be written");
+    (void)roadpose_can_output_close(&bus->output);
     bus->is_on = false;
-    return is_complete;
+    return report_log(bus);
 }

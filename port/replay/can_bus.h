@@ -18,6 +18,10 @@ typedef struct {
     roadpose_can_estimate_t estimate; /* of this frame, until the next cycle */
     bool has_estimate;
     roadpose_can_counts_t reported; /* what the user has been told of */
+    bool is_full;                   /* likewise: a queue that drops frames */
+    bool is_log_reported;           /* likewise: a log that cannot be written */
+    bool is_down;                   /* as of the last call */
+    uint32_t dropped;               /* CAN frames, as of the last cycle */
 } can_bus_t;
 
 /* Opens what the options ask for; a CAN cycle is one frame of the recording. An interface that is missing is reported

@@ -28,9 +28,8 @@ static roadpose_can_send_t output_send(roadpose_can_context_t *output, uint32_t 
 }
 
 static void output_recover(roadpose_can_context_t *output, uint64_t now_us) {
-    (void)now_us;
     if (output->has_bus)
-        roadpose_socketcan_recover(&output->bus);
+        roadpose_socketcan_recover(&output->bus, now_us);
 }
 
 roadpose_can_port_t roadpose_can_output_port(roadpose_can_context_t *output) {

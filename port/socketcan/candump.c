@@ -1,5 +1,6 @@
 #include "candump.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,14 +23,15 @@ void roadpose_candump_write(roadpose_candump_t *log, uint64_t time_us, uint32_t 
         written = fprintf(log->file, "%02X", data[i]) > 0 && written;
     written = fputc('\n', log->file) != EOF && written;
     written = fflush(log->file) == 0 && written;
-    log->failed = log->failed || !written;
+    if (!written && log->error == 0)
+        log->error = errno;
 }
 
 bool roadpose_candump_close(roadpose_candump_t *log) {
-    if (log->file != NULL && log->owns_file && fclose(log->file) != 0)
-        log->failed = true;
+    if (log->file != NULL && log->owns_file && fclose(log->file) != 0 && log->error == 0)
+        log->error = errno;
     log->file = NULL;
-    return !log->failed;
+    return log->error == 0;
 }
 
 static bool parse_data(const char *hex, roadpose_candump_frame_t *frame) {

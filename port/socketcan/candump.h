@@ -23,7 +23,7 @@ typedef struct {
     FILE *file; /* NULL: closed */
     bool owns_file;
     char name[ROADPOSE_CANDUMP_NAME_BYTES]; /* of the interface, as the log calls it */
-    bool failed;                            /* a line could not be written */
+    int error; /* errno of the first line that could not be written; 0: all are */
 } roadpose_candump_t;
 
 /* Opens a log; path "-" is standard output. interface: its name in the log, at most 15 characters, longer is cut.
@@ -34,7 +34,7 @@ bool roadpose_candump_open(roadpose_candump_t *log, const char *path, const char
 /* Writes one line. Does nothing on a closed log. */
 void roadpose_candump_write(roadpose_candump_t *log, uint64_t time_us, uint32_t id, const uint8_t data[8]);
 
-/* Closes. Returns false when any line, or the closing, failed: the disk was full. May be called twice. */
+/* Closes. Returns false when any line, or the closing, failed: the disk was full; error says why. May be called twice. */
 bool roadpose_candump_close(roadpose_candump_t *log);
 
 /* Reads one line. Returns false on anything else than a classic CAN data frame. */

@@ -15,6 +15,7 @@
 
 #define CLOSED (-1)
 #define MAX_ERROR_FRAMES 16
+#define HOLD_US UINT64_C(2000000) /* Linux may take a second to notice that a carrier has gone */
 
 static roadpose_socketcan_result_t fail(roadpose_socketcan_t *can, roadpose_socketcan_result_t result) {
     can->last_errno = errno;
@@ -32,6 +33,16 @@ static bool find_interface(roadpose_socketcan_t *can, int *index) {
     const bool found = ioctl(can->socket, SIOCGIFINDEX, &request) == 0;
     *index = found ? request.ifr_ifindex : 0;
     return found;
+}
+
+/* Whether the controller takes part in the bus, as far as Linux knows. One that is bus-off has no carrier, and Linux
+ * drops what is sent to it without a word. An interface that is down, or gone, is for the next write to tell. */
+static bool has_carrier(const roadpose_socketcan_t *can) {
+    struct ifreq request;
+    memset(&request, 0, sizeof request);
+    memcpy(request.ifr_name, can->name, sizeof can->name);
+    const bool known = ioctl(can->socket, SIOCGIFFLAGS, &request) == 0;
+    return !known || (request.ifr_flags & IFF_UP) == 0 || (request.ifr_flags & IFF_RUNNING) != 0;
 }
 
 /* Error frames only, and the shortest queue that the system allows. None of these is worth failing for: without them
@@ -65,7 +76,8 @@ static roadpose_socketcan_result_t open_again(roadpose_socketcan_t *can) {
     set_options(can);
     if (!bind_interface(can, index))
         return fail(can, ROADPOSE_SOCKETCAN_REFUSED);
-    can->is_bus_off = false;
+    can->is_bus_off = !has_carrier(can); /* since before this socket could hear of it */
+    can->is_dated = false;
     can->counts.opened++;
     return ROADPOSE_SOCKETCAN_OPEN;
 }
@@ -88,14 +100,15 @@ static void note_error_frame(roadpose_socketcan_t *can, const struct can_frame *
         return;
     if ((frame->can_id & CAN_ERR_BUSOFF) != 0u) {
         can->is_bus_off = true;
+        can->is_dated = false;
         can->counts.bus_off++;
     }
     if ((frame->can_id & CAN_ERR_RESTARTED) != 0u)
         can->is_bus_off = false;
 }
 
-/* What the controller reported since the last call. That the interface went down is told here too: when it comes up
- * again, the controller starts afresh and is not bus-off. */
+/* What the controller reported since the last call. That the interface went down, or vanished, is told here too: a
+ * controller that starts afresh is not bus-off, and the write will tell what is now. */
 static void read_error_frames(roadpose_socketcan_t *can) {
     struct can_frame frame;
     for (int i = 0; i < MAX_ERROR_FRAMES; i++) {
@@ -103,7 +116,7 @@ static void read_error_frames(roadpose_socketcan_t *can) {
         if (got == (ssize_t)sizeof frame) {
             note_error_frame(can, &frame);
         } else {
-            if (got < 0 && errno == ENETDOWN)
+            if (got < 0 && errno != EAGAIN && errno != EINTR)
                 can->is_bus_off = false;
             return;
         }
@@ -156,7 +169,19 @@ roadpose_can_send_t roadpose_socketcan_send(roadpose_socketcan_t *can, uint32_t 
     return write_or_tell(can, &frame);
 }
 
-void roadpose_socketcan_recover(roadpose_socketcan_t *can) {
+/* The restart may never be told: where it was the interface going down and up, the error frame of the bus-off may even
+ * be read after it. So the carrier decides, once Linux has had the time to notice. */
+static void look_for_restart(roadpose_socketcan_t *can, uint64_t now_us) {
+    if (!can->is_dated)
+        can->bus_off_us = now_us;
+    can->is_dated = true;
+    if (now_us - can->bus_off_us >= HOLD_US && has_carrier(can))
+        can->is_bus_off = false;
+}
+
+void roadpose_socketcan_recover(roadpose_socketcan_t *can, uint64_t now_us) {
+    if (can->socket != CLOSED && can->is_bus_off)
+        look_for_restart(can, now_us);
     if (can->socket == CLOSED && can->name[0] != '\0')
         (void)open_again(can);
 }

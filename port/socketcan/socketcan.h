@@ -4,7 +4,9 @@
  * that is down (ENETDOWN) or gone (ENXIO, ENODEV), and a controller that is bus-off are ordinary answers; all are
  * counted, and roadpose_socketcan_recover() opens an interface again that came back or came for the first time.
  * Restarting a controller after bus-off takes the right to configure the network: set `ip link set can0 type can
- * restart-ms 100`, or restart by hand; the port notices it.
+ * restart-ms 100`, or restart by hand; the port notices it, by the error frame that tells of the restart or, two seconds
+ * after bus-off, by the carrier of the interface. An interface that is up without a carrier counts as bus-off: Linux
+ * drops what is sent to it and says nothing.
  *
  * On systems without SocketCAN the functions are there and answer ROADPOSE_SOCKETCAN_NO_SUPPORT. Not for interrupts.
  * One object must not be used by two threads at a time; two objects are independent.
@@ -40,6 +42,8 @@ typedef struct {
 typedef struct {
     int socket; /* -1: closed */
     bool is_bus_off;
+    bool is_dated;       /* bus_off_us is known */
+    uint64_t bus_off_us; /* when recover heard of it first */
     char name[ROADPOSE_SOCKETCAN_NAME_BYTES]; /* empty: not to be opened */
     int last_errno;                           /* of the last failure, 0: none yet */
     roadpose_socketcan_counts_t counts;
@@ -54,8 +58,9 @@ roadpose_socketcan_result_t roadpose_socketcan_open(roadpose_socketcan_t *can, c
  * error frames are read; three system calls in the ordinary case. */
 roadpose_can_send_t roadpose_socketcan_send(roadpose_socketcan_t *can, uint32_t id, const uint8_t data[8]);
 
-/* Opens again what is closed. Does nothing to an open interface. */
-void roadpose_socketcan_recover(roadpose_socketcan_t *can);
+/* Opens again what is closed; of an open interface that is bus-off, looks whether it has been restarted. now_us: as
+ * roadpose_can_port_t.can_recover gets it. A few system calls, none of which waits. */
+void roadpose_socketcan_recover(roadpose_socketcan_t *can, uint64_t now_us);
 
 /* Closes; what the kernel has taken still goes out. May be called twice. */
 void roadpose_socketcan_close(roadpose_socketcan_t *can);

@@ -17,8 +17,9 @@ roadpose_can_send_t roadpose_socketcan_send(roadpose_socketcan_t *can, uint32_t 
     return ROADPOSE_CAN_DOWN;
 }
 
-void roadpose_socketcan_recover(roadpose_socketcan_t *can) {
+void roadpose_socketcan_recover(roadpose_socketcan_t *can, uint64_t now_us) {
     (void)can;
+    (void)now_us;
 }
 
 void roadpose_socketcan_close(roadpose_socketcan_t *can) {

@@ -99,10 +99,14 @@ void roadpose_template_camera_interrupt(roadpose_template_t *port, const roadpos
     (void)roadpose_camera_frame_ready(&port->camera, frame, frame_id, time_us); /* false only before init */
 }
 
+/* A task whose period does not divide the cycle begins it a little late; the next one makes up for it. */
 static void serve_can(roadpose_template_t *port) {
-    if (!port->has_cycle || ((port->now_us - port->cycle_us) >= port->transmit.settings.cycle_us)) {
+    const uint32_t cycle_us = port->transmit.settings.cycle_us;
+    const uint64_t past_us = port->now_us - port->cycle_us;
+    if (!port->has_cycle || (past_us >= cycle_us)) {
+        const bool restarts = !port->has_cycle || ((past_us / 2u) >= cycle_us); /* whole cycles were missed */
+        port->cycle_us = restarts ? port->now_us : (port->cycle_us + cycle_us);
         port->has_cycle = true;
-        port->cycle_us = port->now_us;
         (void)roadpose_can_transmit_cycle(&port->transmit, port->now_us); /* its counters tell what went wrong */
     } else {
         (void)roadpose_can_transmit_poll(&port->transmit, port->now_us);

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Plays a recording onto a virtual CAN interface in several ways and captures what comes. Runs in the virtual machine, or
 # in a network namespace of a kernel that has CAN. Needs ip, candump and the modules loaded.
-#   drive.sh REPLAY CANDUMP RECORDING OUTPUT
+#   drive.sh REPLAY CANDUMP RECORDING OUTPUT SCENARIO...
 # Writes OUTPUT/<scenario>.log (capture), .csv (poses), .txt (what the replay said), .status (its exit status).
 set -u
 
@@ -9,6 +9,8 @@ replay=$1
 candump=$2
 recording=$3
 output=$4
+shift 4
+interface=vcan0
 
 up() {
     ip link add dev vcan0 type vcan 2>/dev/null
@@ -45,7 +47,7 @@ begin() {
     "$candump" -L -D any >"$output/$scenario.log" 2>/dev/null &
     listener=$!
     wait_for_listener
-    { "$replay" --can vcan0 "$@" "$recording" >"$output/$scenario.csv" 2>"$output/$scenario.txt"
+    { "$replay" --can "$interface" "$@" "$recording" >"$output/$scenario.csv" 2>"$output/$scenario.txt"
       echo $? >"$output/$scenario.status"; } &
     player=$!
 }
@@ -97,7 +99,28 @@ removed_and_back() {
     finish
 }
 
-for scenario in steady down_and_up missing_at_first removed_and_back; do
+# A line that nobody reads until frames were dropped, 20 seconds at most. What then comes on the line goes to full.line.
+# Only in the virtual machine.
+full() {
+    /stuck-line "$output/full.line" >"$output/full.name" &
+    line=$!
+    until [ -s "$output/full.name" ] || ! kill -0 "$line"; do sleep 0.1; done
+    interface=$(cat "$output/full.name")
+    ip link set dev "$interface" up
+    begin full
+    tries=0
+    until grep -q "queue is full" "$output/full.txt" || [ "$tries" -ge 200 ]; do
+        tries=$((tries + 1))
+        sleep 0.1
+    done
+    sleep 1
+    kill -USR1 "$line"
+    finish
+    sleep 1
+    kill "$line"
+}
+
+for scenario in "$@"; do
     "$scenario"
     echo "$scenario done"
 done

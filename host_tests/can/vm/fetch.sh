@@ -1,12 +1,14 @@
 #!/bin/sh
 # Fetches into the folder $1, from Debian's archive, what the virtual machine is made of; installs nothing.
-#   $1/vmlinuz      the kernel            $1/modules/*.ko    CAN and the virtual interface, in the order of loading
+#   $1/vmlinuz      the kernel            $1/modules/*.ko    CAN, a virtual interface, one on a serial line; in the order of
+#                                                            loading
 #   $1/busybox      the only userland     $1/candump, $1/cansend
 # Packages: linux-image-amd64 (what it depends on), busybox-static, can-utils.
 set -eu
 
 folder=$1
-[ ! -f "$folder/complete" ] || exit 0
+script=$(cd "$(dirname "$0")" && pwd)/$(basename "$0")
+if cmp -s "$script" "$folder/complete"; then exit 0; fi # by this very script
 rm -rf "$folder"
 mkdir -p "$folder/modules" "$folder/packages"
 cd "$folder/packages"
@@ -40,7 +42,7 @@ unpack can-utils './usr/bin/can*'
 cp boot/vmlinuz-* "$folder/vmlinuz"
 cp bin/busybox usr/bin/candump usr/bin/cansend "$folder"
 number=0
-for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan; do
+for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/net/can/vcan drivers/net/can/slcan/slcan; do
     number=$((number + 1))
     found=$(find lib/modules -path "*/kernel/$module.ko*" | head -n 1)
     [ -n "$found" ] || { echo "fetch.sh: the kernel has no module $module" >&2; exit 1; }
@@ -52,4 +54,4 @@ for module in net/can/can net/can/can-raw drivers/net/can/dev/can-dev drivers/ne
 done
 cd "$folder"
 rm -rf "$folder/packages"
-touch "$folder/complete"
+cp "$script" "$folder/complete"

@@ -7,10 +7,13 @@ export PATH=/bin
 mount -t proc none /proc
 mount -t sysfs none /sys
 mount -t devtmpfs none /dev
+mkdir -p /dev/pts
+mount -t devpts none /dev/pts
 for module in /modules/*.ko; do
     insmod "$module" || echo "init: cannot load $module"
 done
-unshare -n sh /drive.sh /roadpose-replay /candump /drive /output
+unshare -n sh /drive.sh /roadpose-replay /candump /drive /output steady down_and_up missing_at_first removed_and_back
+sh /drive.sh /roadpose-replay /candump /drive /output full # Linux makes this interface outside of any namespace
 stty -F /dev/ttyS1 raw
 tar -c -f - -C /output . >/dev/ttyS1
 sync

@@ -16,12 +16,12 @@ def libraries(program):
     return sorted(set(re.findall(r"(/\S+)", listing)))
 
 
-def make_root(parts, replay, recording, root):
+def make_root(parts, replay, line, recording, root):
     """Lays out the initramfs in the folder root."""
     (root / "modules").mkdir(parents=True)
     for module in sorted((parts / "modules").iterdir()):
         shutil.copy(module, root / "modules")
-    for program in (parts / "busybox", parts / "candump", replay):
+    for program in (parts / "busybox", parts / "candump", replay, line):
         shutil.copy(program, root)
         for library in libraries(program):
             target = root / library.lstrip("/")
@@ -63,10 +63,10 @@ def boot(parts, image, console, results):
     return pathlib.Path(results).read_bytes()
 
 
-def drive(parts, replay, recording, work, output):
+def drive(parts, replay, line, recording, work, output):
     """Everything: the files that drive.sh wrote are in output afterwards. Raises with the console when there are none."""
     parts, work = pathlib.Path(parts), pathlib.Path(work)
-    make_root(parts, pathlib.Path(replay), pathlib.Path(recording), work / "root")
+    make_root(parts, pathlib.Path(replay), pathlib.Path(line), pathlib.Path(recording), work / "root")
     pack(work / "root", work / "image")
     archive = boot(parts, work / "image", work / "console.txt", work / "results.tar")
     try:

@@ -2,7 +2,8 @@
 """roadpose-replay on a real SocketCAN: drive.sh plays a drive onto vcan0 and takes the interface away meanwhile; what
 candump heard is compared with the CSV. In a network namespace where this kernel has virtual CAN, else in a virtual
 machine (x86-64 only; exit status 77 elsewhere). Environment: ROADPOSE_REPLAY, ROADPOSE_FIXTURES, ROADPOSE_CAN_CODEC, and
-ROADPOSE_VM_PARTS, the folder for what fetch.sh fetches; ROADPOSE_BUS_IN=vm or here decides otherwise."""
+ROADPOSE_VM_PARTS, the folder for what fetch.sh fetches, and ROADPOSE_STUCK_LINE; ROADPOSE_BUS_IN=vm or here decides
+otherwise. A queue that is full is played in the virtual machine only."""
 import os
 import pathlib
 import platform
@@ -16,11 +17,13 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import capture  # noqa: E402 (found by the line above)
+import codec  # noqa: E402
 import drive  # noqa: E402
 import machine  # noqa: E402
 
 REPLAY = os.environ["ROADPOSE_REPLAY"]
 FRAMES = drive.FRAMES
+ON_VCAN = ("steady", "down_and_up", "missing_at_first", "removed_and_back")
 
 
 def kernel_has_can():
@@ -32,8 +35,8 @@ def kernel_has_can():
 
 
 def play_here(recording, output):
-    subprocess.run(["unshare", "--net", "sh", HERE / "drive.sh", REPLAY, shutil.which("candump"), recording, output],
-                   check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["unshare", "--net", "sh", HERE / "drive.sh", REPLAY, shutil.which("candump"), recording, output,
+                    *ON_VCAN], check=True, stdout=subprocess.DEVNULL)
 
 
 WHERE = os.environ.get("ROADPOSE_BUS_IN") or ("here" if kernel_has_can() else "vm")
@@ -46,7 +49,7 @@ def play(recording, work, output):
     else:
         parts = os.environ["ROADPOSE_VM_PARTS"]
         subprocess.run(["sh", HERE / "fetch.sh", parts], check=True)
-        machine.drive(parts, REPLAY, recording, work, output)
+        machine.drive(parts, REPLAY, os.environ["ROADPOSE_STUCK_LINE"], recording, work, output)
 
 
 class Bus(unittest.TestCase):
@@ -109,6 +112,29 @@ class Bus(unittest.TestCase):
         rows = self.missing("removed_and_back", profile=5)
         self.assert_windows(rows, 10)
         self.assertNotIn(FRAMES - 1, rows)
+
+
+    @unittest.skipUnless(WHERE == "vm", "Linux makes the interface of a serial line outside of any network namespace")
+    def test_full(self):
+        """What the interface took is what went out, in order and without a gap of the counters, once there is room."""
+        self.assertEqual("0", self.text("full", "status").strip(), self.text("full", "txt"))
+        self.assertEqual(self.poses, self.text("full", "csv"), "the bus has no influence on the poses")
+        told = self.text("full", "txt")
+        print(f"full:\n{told}", end="")
+        taken = capture.frames_of(self.text("full", "log"))
+        line = [(int(text[1:4], 16), bytes.fromhex(text[5:])) for text in self.text("full", "line").split()
+                if text.startswith("t")]
+        self.assertEqual(taken, line)
+        self.assertIn("its queue is full; CAN frames are dropped until there is room", told)
+        self.assertIn("its queue has room again", told)
+        self.assertIn(f"{len(taken)} CAN frames sent, {3 * FRAMES - len(taken)} dropped; down 0 times", told)
+        for message in codec.database().messages:
+            counters = [data[1] & 0x0F for identifier, data in taken if identifier == message.frame_id]
+            self.assertEqual([number % 15 for number in range(len(counters))], counters)
+        counts = [codec.codes(codec.database().messages[2], data)["FrameCount"] for identifier, data in taken
+                  if identifier == 0x3D2]
+        self.assertEqual(sorted(set(counts)), counts, "an old pose after a newer one")
+        self.assertEqual(FRAMES, counts[-1])
 
 
 if __name__ == "__main__":

@@ -106,11 +106,12 @@ typedef struct {
 
 /* Which points count around the present plane. */
 typedef struct {
+    int32_t a_q18;           /* the plane's change from one grid column to the next */
     int32_t range_min_q8;    /* the plane's disparity must be at least this */
     int32_t du_q12;          /* pixel column of grid column_0 minus cu */
     int32_t centre_q12;      /* corridor: lateral position of its middle, in baselines */
-    int32_t half_outer_q12;  /* half width in baselines where points still count half */
-    int32_t half_inner_q12;  /* and where they count full */
+    uint32_t half_outer_q12; /* half width in baselines where points still count half */
+    uint32_t half_inner_q12; /* and where they count full */
     int32_t noise_q8;        /* half width of the band that noise needs, pixels */
     uint32_t unevenness_q16; /* what an uneven road adds to it, as a share of the disparity */
     bool mark_corridor;      /* weigh the points by the corridor anew; else take their last weights */

@@ -25,7 +25,12 @@ static const int16_t FIRST_BANDS_Q8[FIRST_ROUNDS] = {256, 192, 160};
  * noise band. Fewer are mismatches, and a wider band would only let those in. */
 #define UNEVEN_SHARE 16
 
-#define LIMIT_Q24 ((uint64_t)ROADPOSE_MAX_DISPARITY << 24)
+#define LIMIT_Q18 ((uint32_t)ROADPOSE_MAX_DISPARITY << 18)
+
+/* What changes by 2048 px over the image is no road; and what is beyond 4096 px, to either side, in the middle of a row has
+ * no point of that row within the levels. */
+#define ACROSS_LIMIT_Q18 (INT32_C(1) << 29)
+#define BASE_LIMIT_Q18 (INT64_C(1) << 30)
 
 /* A residual must stay below 4 px: keeps the row sums of residual times column in 32 bits. */
 #define BAND_LIMIT_Q8 1023
@@ -65,6 +70,10 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
         return false;
     }
     const int64_t k = pixels.length_q24;
+    rule->a_q18 = (int32_t)roadpose_floor_shift((int64_t)plane->a_q24 + 32, 6);
+    if (roadpose_abs(rule->a_q18) * grid->columns >= ACROSS_LIMIT_Q18) {
+        return false;
+    }
     const int64_t n_x_q16 = roadpose_ratio(pixels.a_q24, k, 16); /* |n_x| <= 1 */
     /* Degenerate planes may have a tiny k: the clamps keep every product below 2^62. */
     rule->centre_q12 = (int32_t)roadpose_clamp(roadpose_ratio(n_x_q16, k, 20), -NO_LIMIT_Q12, NO_LIMIT_Q12);
@@ -72,8 +81,8 @@ bool roadpose_road_rule(roadpose_road_rule_t *rule, const roadpose_plane_t *plan
     const int64_t width_um = (int64_t)settings->corridor_half_width_mm * ((round == ROADPOSE_LOOK_INNER) ? 500 : 1000);
     /* width <= 1e8 um, cosine <= 2^16: product < 2^43; / B >= 20 000 and from Q16 to Q12: < 2^25 */
     const int64_t half_q12 = width_um * cosine_q16 / grid->baseline_um / 16;
-    rule->half_outer_q12 = (width_um == 0) ? NO_LIMIT_Q12 : (int32_t)(half_q12 * 9 / 8);
-    rule->half_inner_q12 = (width_um == 0) ? NO_LIMIT_Q12 : (int32_t)(half_q12 * 7 / 8);
+    rule->half_outer_q12 = (uint32_t)((width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 9 / 8);
+    rule->half_inner_q12 = (uint32_t)((width_um == 0) ? NO_LIMIT_Q12 : half_q12 * 7 / 8);
     rule->range_min_q8 = roadpose_range_min_q8(grid, settings);
     rule->du_q12 = grid->du_millipx * 4096 / 1000; /* |du| <= 8000 */
     rule->noise_q8 = noise_band_q8(round, settings);
@@ -127,12 +136,12 @@ void roadpose_moments_begin(roadpose_moments_t *moments, const roadpose_road_rul
 
 /* 0 outside the corridor, else the weight. |x| <= 2^10 columns of <= 16 px and |du| <= 8 px in Q12: below 2^27;
  * p < 2^16, centre and halves <= 2^30: products below 2^47. */
-static int32_t corridor_weight(const roadpose_road_rule_t *rule, int32_t lateral_px_q12, int32_t p_q8) {
-    const int64_t off = roadpose_abs((int64_t)lateral_px_q12 * 256 - (int64_t)rule->centre_q12 * p_q8);
-    if (off <= (int64_t)rule->half_inner_q12 * p_q8) {
+static int32_t corridor_weight(const roadpose_road_rule_t *rule, int32_t lateral_px_q12, uint32_t p_q8) {
+    const uint64_t off = (uint64_t)roadpose_abs((int64_t)lateral_px_q12 * 256 - (int64_t)rule->centre_q12 * p_q8);
+    if (off <= (uint64_t)rule->half_inner_q12 * p_q8) {
         return FULL_WEIGHT;
     }
-    return (off <= (int64_t)rule->half_outer_q12 * p_q8) ? HALF_WEIGHT : 0;
+    return (off <= (uint64_t)rule->half_outer_q12 * p_q8) ? HALF_WEIGHT : 0;
 }
 
 /* Sums over one row in which y is constant. At most 1024 points a row, weight <= 2, |x| <= 1024, |r| < 1024:
@@ -169,19 +178,29 @@ static inline void add_point(row_sums_t *sums, uint32_t weight, int32_t x, int32
     sums->rr += (uint32_t)(wr * r);
 }
 
-/* The plane along one row: its disparity in column x is base + a x. */
+/* The plane along one row: its disparity in column x is base + a x. In 32 bits, for processors on which more is dear: what
+ * that cuts off a, at most 2^-19 px a grid step, turns the road by less than a thousandth of a degree. */
 typedef struct {
-    int64_t base_q24; /* half an LSB of Q8 is in it: it rounds */
-    int32_t a_q24;
+    int32_t base_q18; /* half an LSB of Q8 is in it: it rounds */
+    int32_t a_q18;
     int32_t column_0;
 } row_plane_t;
 
+/* |b y| < 2^31 * 2^10, |c| <= 2^40. */
+static row_plane_t plane_of_row(const roadpose_plane_t *plane, const roadpose_road_rule_t *rule,
+                                const roadpose_grid_t *grid, int32_t y) {
+    const int64_t base_q18 = roadpose_floor_shift((int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15), 6);
+    const row_plane_t line = {(int32_t)roadpose_clamp(base_q18, -BASE_LIMIT_Q18, BASE_LIMIT_Q18), rule->a_q18,
+                              grid->column_0};
+    return line;
+}
+
 /* Disparity of the plane, Q8. False beyond the levels or above the horizon: the plane is too near to be measured, or
- * behind the camera. |a x| < 2^31 * 2^10. */
+ * behind the camera. |base| <= 2^30, |a x| < 2^29. */
 static inline bool plane_at(const row_plane_t *line, int32_t x, uint32_t *p_q8) {
-    const uint64_t p_q24 = (uint64_t)(line->base_q24 + (int64_t)line->a_q24 * x); /* negative: beyond the limit */
-    *p_q8 = (uint32_t)(p_q24 >> 16);
-    return p_q24 < LIMIT_Q24;
+    const uint32_t p_q18 = (uint32_t)(line->base_q18 + line->a_q18 * x); /* negative: beyond the limit */
+    *p_q8 = p_q18 >> 10;
+    return p_q18 < LIMIT_Q18;
 }
 
 /* Weighs the points of a row by the corridor. Points where the plane is too far, above its horizon, or nearer than can
@@ -193,7 +212,7 @@ static void mark_row(roadpose_points_t *points, const roadpose_road_rule_t *rule
         uint32_t p_q8;
         int32_t weight = 0;
         if (plane_at(line, x, &p_q8) && (int32_t)p_q8 >= rule->range_min_q8) {
-            weight = corridor_weight(rule, x * (ROADPOSE_COLUMN_STEP * 4096) + rule->du_q12, (int32_t)p_q8);
+            weight = corridor_weight(rule, x * (ROADPOSE_COLUMN_STEP * 4096) + rule->du_q12, p_q8);
         }
         points->column[i] = (uint16_t)(column | (weight << ROADPOSE_POINT_WEIGHT_SHIFT));
     }
@@ -233,8 +252,7 @@ static inline bool sort_point(roadpose_moments_t *moments, int32_t noise_q8, int
 void roadpose_moments_add_row(roadpose_moments_t *moments, roadpose_points_t *points, const roadpose_plane_t *plane,
                               const roadpose_road_rule_t *rule, const roadpose_grid_t *grid, int16_t row) {
     const int32_t y = row - grid->row_0;
-    /* < 2^31 * 2^10 + 2^40 */
-    const row_plane_t line = {(int64_t)plane->b_q24 * y + plane->c_q24 + (1 << 15), plane->a_q24, grid->column_0};
+    const row_plane_t line = plane_of_row(plane, rule, grid, y);
     const int32_t noise_q8 = rule->noise_q8;
     row_sums_t sums = {0, 0, 0, 0, 0, 0};
     if (rule->mark_corridor) {

@@ -14,10 +14,15 @@ static void fill_list(uint8_t list[ROADPOSE_E2E_LIST_ENTRIES], unsigned message)
     }
 }
 
+/* The enumeration may be wider than the byte that a profile is kept in. */
+static bool is_profile(roadpose_e2e_profile_t profile) {
+    return (profile == ROADPOSE_E2E_PROFILE_1) || (profile == ROADPOSE_E2E_PROFILE_2) ||
+           (profile == ROADPOSE_E2E_PROFILE_5);
+}
+
 bool roadpose_can_settings_default(roadpose_can_settings_t *settings, roadpose_e2e_profile_t profile) {
-    bool fits = ((unsigned)profile <= UINT8_MAX) && (roadpose_e2e_next_counter((uint8_t)profile, 0u) != 0u);
-    if ((settings == NULL) || !fits) {
-        return false; /* a profile whose counter does not move is not one */
+    if ((settings == NULL) || !is_profile(profile)) {
+        return false;
     }
     for (unsigned message = 0; message < ROADPOSE_CAN_MESSAGES; message++) {
         settings->id[message] = FIRST_IDENTIFIER + message;

@@ -112,8 +112,7 @@ def memory(builds):
 def graph_of(builds, machine, level, suffix):
     """The call graph of the core and its ports, with the run-time functions that they are linked with."""
     where, tools = builds.where[machine, level], builds.targets[machine, level].machine.tools
-    camera = "port/firmware" if suffix else "port/camera"
-    folders = [f"lib/CMakeFiles/roadpose{suffix}.dir", f"{camera}/CMakeFiles/roadpose_camera{suffix}.dir", "port/can/CMakeFiles"]
+    folders = [f"lib/CMakeFiles/roadpose{suffix}.dir", f"port/camera/CMakeFiles/roadpose_camera{suffix}.dir", "port/can/CMakeFiles"]
     graph = call_stack.read_graph([path for folder in folders for path in sorted((where / folder).rglob("*.ci"))])
     libraries = [where / f"lib/libroadpose{suffix}.a", where / "port/can/libroadpose_can.a"]
     with tempfile.TemporaryDirectory() as folder:

@@ -33,8 +33,10 @@ if grep -q -- -Werror "$scratch/parent/build/compile_commands.json"; then
     exit 1
 fi
 
-# A packager's folders, without programs.
-for include in unusual "$scratch/absolute include"; do
+# A packager's folders, without programs. An absolute one may not lie within the sources, says CMake.
+elsewhere=$(mktemp -d)
+trap 'rm -rf "$elsewhere"' EXIT
+for include in unusual "$elsewhere/absolute include"; do
     installed="$scratch/installed"
     rm -rf "$installed"
     quietly cmake -S "$source" -B "$scratch/plain" -G Ninja -DROADPOSE_PORTS=OFF -DCMAKE_BUILD_TYPE=Debug \

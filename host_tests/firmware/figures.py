@@ -137,12 +137,15 @@ def graph_of(builds, machine, level, suffix):
     if pointers := call_stack.read_graph(files[0]).calls_by_pointer():
         raise call_stack.Fault(f"the core calls by pointer, so its stack cannot be followed: {pointers}")
     graph = call_stack.read_graph([path for found in files for path in found])
+    functions = list(graph.frame)
     libraries = [where / f"lib/libroadpose{suffix}.a", where / "port/can/libroadpose_can.a"]
     with tempfile.TemporaryDirectory() as folder:
         program = f"{folder}/whole.elf"
         targets.run([builds.compiler(machine), *core_flags(machine), "-nostartfiles",
                      "-Wl,--entry=0,--no-gc-sections,--whole-archive", *libraries, "-Wl,--no-whole-archive", "-o", program])
         call_stack.add_disassembly(graph, f"{tools}objdump", program)
+    for name in functions:  # also what no public call reaches: a fault in it is a fault
+        graph.worst(name)
     return graph
 
 

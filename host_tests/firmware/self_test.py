@@ -92,13 +92,22 @@ class CallStack(Sample):
         graph = self.graph("int f(int (*g)(int)) { return g(3); }")  # as a jump
         self.assertEqual(["f"], graph.calls_by_pointer())
 
-    def test_refuses_a_core_that_calls_by_pointer(self):
+    def graph_of_core(self, text):
+        """As figures.py reads it, of a core with no port and no run-time functions."""
         folder = self.root / "lib/CMakeFiles/roadpose.dir"
-        folder.mkdir(parents=True)
-        self.compile("int f(int (*g)(int)) { return g(3) + 1; }").rename(folder / "f.c.ci")
+        folder.mkdir(parents=True, exist_ok=True)
+        self.compile(text).rename(folder / "f.c.ci")
         machine = types.SimpleNamespace(machine=types.SimpleNamespace(tools=""))
-        builds = types.SimpleNamespace(where={("x", "-O2"): self.root}, targets={("x", "-O2"): machine})
-        self.assertRaisesRegex(call_stack.Fault, "by pointer", figures.graph_of, builds, "x", "-O2", "")
+        builds = types.SimpleNamespace(where={("x", "-O2"): self.root}, targets={("x", "-O2"): machine}, compiler=lambda _: COMPILER)
+        with mock.patch.object(targets, "run"), mock.patch.object(call_stack, "add_disassembly"):
+            return figures.graph_of(builds, "x", "-O2", "")
+
+    def test_refuses_a_core_that_cannot_be_followed(self):
+        self.graph_of_core("int f(int x) { return x + 1; }")
+        bad = {"int f(int (*g)(int)) { return g(3) + 1; }": "by pointer", "int f(int n) { volatile int b[n]; return b[0] = n; }": "not bounded",
+               "int f(int n) { return n < 2 ? n : f(n - 1) * f(n - 2) + 1; }": "recursion"}
+        for text, complaint in bad.items():
+            self.assertRaisesRegex(call_stack.Fault, complaint, self.graph_of_core, text)
 
     def test_instructions_that_take_from_the_stack(self):
         for text, taken in {"push\t{r4, r5, r6, lr}": 16, "stmdb\tsp!, {r4-r9, sl, lr}": 32, "sub\tsp, #24": 24, "sub.w\tsp, sp, #400": 400,

@@ -11,7 +11,7 @@ packages='gcc g++ libc6-dev cmake ninja-build clang-19 libclang-rt-19-dev libope
 [ "$(dpkg --print-architecture)" != amd64 ] || packages="$packages gcc-12-multilib libc6-dev-i386"
 # Firmware: Cortex-M, RISC-V and big-endian PowerPC, all emulated; and the installed package.
 packages="$packages gcc-arm-none-eabi libnewlib-arm-none-eabi gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf
-    gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-user-static qemu-system-arm qemu-system-misc pkg-config"
+    gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-user-static qemu-system-arm qemu-system-misc pkg-config make"
 
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=${ROADPOSE_BUILD_DIR:-$root/build-host-tests}

@@ -17,8 +17,10 @@ HEADERS = {"<stdint.h>", "<stddef.h>", "<stdbool.h>", "<limits.h>", "<string.h>"
 RULES = [
     (re.compile(r"\b(?:%s)\b" % "|".join(WORDS)), "forbidden word"),
     (re.compile(r"\b(?:%s)(?=\s*\()" % "|".join(CALLS)), "forbidden call"),
-    (re.compile(r"\b__builtin_\w+"), "compiler extension"),
-    (re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?[fFlL]?|(?<![\w.])\d+[eE][+-]?\d+"), "floating constant"),
+    (re.compile(r"\b__(?!cplusplus\b)\w+"), "compiler extension"),
+    (re.compile(r"\b_(?:Float|Decimal|Fract|Accum|Sat|BitInt|Generic|Alignas|Atomic|Noreturn)\w*"), "forbidden word"),
+    (re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+)(?:[eE][+-]?\d+)?[fFlL]?|(?<![\w.])\d+[eE][+-]?\d+"
+                r"|0[xX][\da-fA-F]*\.?[\da-fA-F]*[pP][+-]?\d+"), "floating constant"),
     (re.compile(r"\?\s*:"), "compiler extension"),
 ]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""limit_errors.py INCLUDE COMPILER: every #error of limits.h fires on the limit it names, and only then."""
+"""limit_errors.py INCLUDE COMPILER: every #error of the public headers fires on the limit it names, and only then."""
 import pathlib
 import re
 import subprocess
@@ -30,13 +30,27 @@ CASES = [
     ({"ROADPOSE_MAX_PAIRS": 1025}, "roadpose: set ROADPOSE_MAX_PAIRS to"),
     ({"ROADPOSE_MAX_WIDTH": 2048, "ROADPOSE_COLUMN_STEP": 1}, "roadpose: raise ROADPOSE_COLUMN_STEP or"),
     ({"ROADPOSE_MAX_HEIGHT": 1536, "ROADPOSE_ROW_STEP": 1}, "roadpose: raise ROADPOSE_COLUMN_STEP or"),
+    ({"ROADPOSE_MAX_TRACKS": 32, "ROADPOSE_YAW_HISTORY": 8, "ROADPOSE_TRACKER_RANGE": 8}, None),
+    ({"ROADPOSE_MAX_TRACKS": 512, "ROADPOSE_YAW_HISTORY": 256, "ROADPOSE_TRACKER_RANGE": 64}, None),
+    ({"ROADPOSE_E2E_FIRST_COUNTER": 0}, None),
+    ({"ROADPOSE_E2E_FIRST_COUNTER": 14}, None),
+    ({"ROADPOSE_MAX_TRACKS": 31}, "roadpose: set ROADPOSE_MAX_TRACKS to"),
+    ({"ROADPOSE_MAX_TRACKS": 513}, "roadpose: set ROADPOSE_MAX_TRACKS to"),
+    ({"ROADPOSE_YAW_HISTORY": 7}, "roadpose: set ROADPOSE_YAW_HISTORY to"),
+    ({"ROADPOSE_YAW_HISTORY": 257}, "roadpose: set ROADPOSE_YAW_HISTORY to"),
+    ({"ROADPOSE_TRACKER_RANGE": 4}, "roadpose: set ROADPOSE_TRACKER_RANGE to"),
+    ({"ROADPOSE_TRACKER_RANGE": 10}, "roadpose: set ROADPOSE_TRACKER_RANGE to"),
+    ({"ROADPOSE_TRACKER_RANGE": 68}, "roadpose: set ROADPOSE_TRACKER_RANGE to"),
+    ({"ROADPOSE_E2E_FIRST_COUNTER": -1}, "roadpose: set ROADPOSE_E2E_FIRST_COUNTER to"),
+    ({"ROADPOSE_E2E_FIRST_COUNTER": 15}, "roadpose: set ROADPOSE_E2E_FIRST_COUNTER to"),
 ]
 
 
 def messages(include, compiler, definitions):
     options = [f"-D{name}={value}" for name, value in definitions.items()]
+    headers = "".join(f'#include "roadpose/{path.name}"\n' for path in sorted(pathlib.Path(include, "roadpose").glob("*.h")))
     run = subprocess.run([compiler, "-std=c99", f"-I{include}", *options, "-x", "c", "-fsyntax-only", "-"],
-                         input='#include "roadpose/limits.h"\n', capture_output=True, text=True, check=False)
+                         input=headers, capture_output=True, text=True, check=False)
     return re.findall(r'error: (?:#error )?"([^"]*)"', run.stderr) if run.returncode else []
 
 
@@ -49,7 +63,7 @@ def complaint_of(found, wanted):
 def check(include, compiler, cases=None):
     complaints = [(definitions, complaint_of(messages(include, compiler, definitions), wanted))
                   for definitions, wanted in (cases or CASES)]
-    text = pathlib.Path(include, "roadpose", "limits.h").read_text(encoding="utf-8")
+    text = "".join(path.read_text(encoding="utf-8") for path in pathlib.Path(include, "roadpose").glob("*.h"))
     untried = [message for message in re.findall(r'#error "([^"]*)"', text)
                if not any(wanted and message.startswith(wanted) for _, wanted in (cases or CASES))]
     return ([f"{definitions}: {what}" for definitions, what in complaints if what] +

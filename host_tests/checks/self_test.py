@@ -43,7 +43,8 @@ class ForbiddenWords(CheckTest):
             "char *p = alloca(4);": "alloca", "x = 1.5;": "1.5", "x = 2e3;": "2e3", "x = .5f;": ".5f",
             "#include <math.h>": "<math.h>", "#  include <stdio.h>": "<stdio.h>", "x = __builtin_clz(y);": "__builtin_clz",
             "asm(\"nop\");": "asm", "setjmp(b);": "setjmp", "x = y ?: z;": "?:", "y = sqrt(x);": "sqrt",
-            "x = /* a */ calloc /* b */ (1, 2);": "calloc",
+            "x = /* a */ calloc /* b */ (1, 2);": "calloc", "x = 0x1p-3;": "0x1p-3", "x = 0X1.8P3f;": "0X1.8P3", "_Float32 x;": "_Float32",
+            "__fp16 x;": "__fp16", "int x __attribute((used));": "__attribute", "__float128 x;": "__float128",
         }
         for text, part in samples.items():
             with self.subTest(text):
@@ -51,7 +52,8 @@ class ForbiddenWords(CheckTest):
 
     def test_good_samples(self):
         for text in ["/* a float, by malloc() */ int x;", "// goto 1.5\nint x;", 'const char *s = "printf(1.5)";',
-                     "int free_map, is_free, timeout, random;", "x = roadpose_is_free(a);", "x = 0x1e5 + 0xE3u;",
+                     "int free_map, is_free, timeout, random;", "x = roadpose_is_free(a);", "x = 0x1e5 + 0xE3u;", "x = 0xAFu + p + 1; y = 0x1 + p3;",
+                     "#ifdef __cplusplus\nint _Roll;\n#endif",
                      "#include <stdint.h>\n#include <string.h>\n", "x = a ? b : c;", "y = roadpose_sqrt(x);"]:
             with self.subTest(text):
                 self.assertEqual([], forbidden_words.complaints_of(text))

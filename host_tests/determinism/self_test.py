@@ -4,11 +4,27 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+from unittest import mock
+
+import determinism
 
 COMPILERS = ["gcc", "clang"]
 SCRIPT = pathlib.Path(__file__).with_name("determinism.py")
 HEAD = "#include <limits.h>\n#include <stdio.h>\nint main(int argc, char **argv) {\n    (void)argv;\n"
+
+
+class Variants(unittest.TestCase):
+    def test_no_build_is_forgotten(self):
+        options = types.SimpleNamespace(compilers=["gcc", "clang"], folder=".")
+        with mock.patch.object(determinism, "can_link", return_value=True):
+            found = [f"{compiler} {words}" for compiler, words in determinism.variants(options)]
+        for compiler in ["gcc", "clang"]:
+            for words in ["-O0", "-O2", "-O3", "-Os", "sanitize=address,undefined"]:
+                self.assertTrue(any(name.startswith(compiler) and words in name for name in found), (compiler, words))
+        for words in ["-m32", "-funsigned-char", "-fshort-enums"]:
+            self.assertTrue(any(words in name for name in found), words)
 
 
 class Determinism(unittest.TestCase):

@@ -4,8 +4,10 @@ import re
 import subprocess
 
 CONSTANTS = re.compile(r"\.(?:rodata|srodata|sdata2|data\.rel\.ro)")
-WRITABLE = re.compile(r"\.(?:data|bss|sdata|sbss|tdata|tbss)(?!\.rel\.ro)")
 CODE = re.compile(r"\.text")
+# Read-only once the program runs: tables of pointers, written by the loader or linker.
+RELOCATED = re.compile(r"\.data\.rel\.ro|\.got2?$")
+SECTION = re.compile(r"^ +\d+ (\S+) +([0-9a-f]+) .*\n +(.*)$", re.MULTILINE)
 
 
 def output_of(*command):
@@ -13,21 +15,28 @@ def output_of(*command):
 
 
 class Archive:
-    """tools: what the names of nm and size begin with, such as arm-none-eabi-."""
+    """tools: what the names of nm and objdump begin with, such as arm-none-eabi-."""
 
     def __init__(self, path, tools):
         self.path = path
+        members = output_of(f"{tools}ar", "t", path).split()
+        if len(set(members)) < len(members):
+            raise ValueError(f"{path} has two members of the same name: their sizes cannot be told apart")
+        self.read_symbols(output_of(f"{tools}nm", "-P", "-A", "-g", path))
+        self.sections = {member: [] for member in members}  # (name, bytes, is it writable)
+        for block in re.split(r"\n(?=\S+: +file format )", output_of(f"{tools}objdump", "-h", path)):
+            head = re.match(r"(\S+): +file format ", block)
+            if head:
+                self.sections[head.group(1)] += [section(*found) for found in SECTION.findall(block) if "ALLOC" in found[2]]
+
+    def read_symbols(self, listing):
         self.defined = collections.defaultdict(set)  # member -> global names
         self.wanted = collections.defaultdict(set)
-        for member, name, kind in re.findall(r"^\S*\[(\S+)\]: (\S+) (\S)", output_of(f"{tools}nm", "-P", "-A", "-g", path),
-                                             re.MULTILINE):
+        self.common = set()  # variables that the linker puts into .bss: in no section yet
+        for member, name, kind in re.findall(r"\[(\S+)\]: (\S+) (\S)", listing):
             (self.wanted if kind in "Uw" else self.defined)[member].add(name)
-        self.sections = collections.defaultdict(list)
-        for block in re.split(r"\n\n+", output_of(f"{tools}size", "-A", path)):
-            head = re.match(r"\s*(\S+)\s+\(ex ", block)
-            if head:
-                self.sections[head.group(1)] = [(name, int(size)) for name, size in
-                                                re.findall(r"^(\.\S+)\s+(\d+)", block, re.MULTILINE)]
+            if kind == "C":
+                self.common.add(name)
 
     def home(self):
         return {name: member for member, names in self.defined.items() for name in names}
@@ -49,4 +58,14 @@ class Archive:
 
     def bytes_of(self, pattern, members=None):
         chosen = self.sections if members is None else members
-        return sum(size for member in chosen for name, size in self.sections[member] if pattern.match(name))
+        return sum(size for member in chosen for name, size, _ in self.sections[member] if pattern.match(name))
+
+    def writable(self):
+        """Names of what a program could change, each with its bytes where they are known."""
+        found = [f"{size} bytes of {name} in {member}" for member, sections in self.sections.items()
+                 for name, size, is_writable in sections if is_writable and size and not RELOCATED.match(name)]
+        return found + [f"the variable {name}" for name in sorted(self.common)]
+
+
+def section(name, size, flags):
+    return name, int(size, 16), "READONLY" not in flags

@@ -9,6 +9,10 @@ NODE = re.compile(r'node: { title: "([^"]+)" label: "([^"]*)"')
 EDGE = re.compile(r'edge: { sourcename: "([^"]+)" targetname: "([^"]+)"')
 SIZE = re.compile(r"(\d+) bytes \((\w+(?:,\w+)?)\)")
 INDIRECT = "__indirect_call"
+# In a disassembly: a call or jump to an address in a register, and a stack pointer lowered by one.
+BY_REGISTER = re.compile(r"\t(?:blx\s+r\d|bx\s+(?!lr)|mov\s+pc,|ldr(?:\.w)?\s+pc,\s*\[(?!sp)|jalr\s|jr\s+(?!ra))")
+LOWERED = re.compile(r"\tsub(?:\.w)?\s+sp,\s*(?:sp,\s*)?[a-z]|\tmov\s+sp,|\tmv\s+sp,")
+BRANCH = re.compile(r"\t(?:bl|b[a-z]{0,2}|b[a-z]{0,2}\.[wn]|cbn?z|j|jal|call|tail)\s+(?:\w+,\s*)*[0-9a-f]+ <([^>+]+)>")
 
 
 class Fault(Exception):
@@ -30,12 +34,16 @@ class Graph:
         if name in path:
             raise Fault(f"recursion: {' -> '.join(path + (name,))}")
         if name == INDIRECT:
-            return 0  # the caller's own function: its stack is the caller's to know
+            return 0  # a callback of the platform: its stack is the platform's to know (see calls_by_pointer)
         if name not in self.frame:
             raise Fault(f"the stack of {name}() is not known, called by {path[-1] if path else 'nobody'}()")
         if name in self.dynamic:
             raise Fault(f"the stack of {name}() is not bounded at compile time")
         return self.frame[name] + max((self.worst(callee, path + (name,)) for callee in self.calls[name]), default=0)
+
+    def calls_by_pointer(self):
+        """Functions that do not say whom they call."""
+        return sorted(name for name, callees in self.calls.items() if INDIRECT in callees)
 
     def reached(self, name):
         seen, waiting = set(), [name]
@@ -90,5 +98,8 @@ def add_disassembly(graph, objdump, program):
             continue
         name = head.group(1)
         graph.add(name, sum(taken_by(line) for line in block.splitlines()))
-        targets = re.findall(r"\t(?:bl|b|b\.w|b\.n|j|jal|call|tail)\s+(?:ra,)?[0-9a-f]+ <([^>+]+)>", block)
-        graph.calls[name] |= {target for target in targets if target != name}
+        graph.calls[name] |= {target for target in BRANCH.findall(block) if target != name}
+        if BY_REGISTER.search(block):
+            graph.calls[name].add("an address in a register: ")
+        if LOWERED.search(block):
+            graph.dynamic.add(name)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# installed_package.sh SOURCE BUILD SCRATCH: installs a build, moves it elsewhere, and builds and runs the example project with
+# installed_package.sh SOURCE BUILD SCRATCH: builds the example project as other projects would. Installs a build, moves it elsewhere, and builds and runs the example project with
 # its CMake package and with its pkg-config files, as another project would.
 set -eu
 source=$1
@@ -32,8 +32,8 @@ done
 PKG_CONFIG_PATH=$(dirname "$(find "$scratch/moved" -name roadpose.pc)")
 export PKG_CONFIG_PATH
 for package in roadpose roadpose-small; do
-    # shellcheck disable=SC2046 # words are meant
-    cc $(pkg-config --cflags "$package") "$source/port/example/main.c" $(pkg-config --libs "$package") -o "$scratch/by-$package"
+    # eval: pkg-config puts a backslash before each blank of a path
+    eval "cc $(pkg-config --cflags "$package") '$source/port/example/main.c' $(pkg-config --libs "$package") -o '$scratch/by-$package'"
     "$scratch/by-$package" >"$scratch/by-$package.txt"
     check_output "$scratch/by-$package.txt"
 done

@@ -10,7 +10,8 @@ import archive
 INTEGER_HELPERS = [
     r"__aeabi_u?[il]div(mod)?", r"__aeabi_(lmul|llsl|llsr|lasr|u?lcmp)", r"__aeabi_mem(cpy|move|set|clr)[48]?",
     r"__u?(div|mod|divmod)[sd]i[34]", r"__mul[sd]i3", r"__(ash[lr]|lshr)di3", r"__u?cmpdi2",
-    r"__(clz|ctz|ffs|popcount|bswap)[sd]i2", r"__riscv_(save|restore)_\d+", r"_(save|rest)gpr_\d+(_x)?", r"__gnu_thumb1_case_[su](qi|hi|si)",
+    r"__(clz|ctz|ffs|popcount|bswap)[sd]i2", r"__riscv_(save|restore)_\d+", r"_(save|rest)gpr_\d+(_x)?",
+    r"__gnu_thumb1_case_[su](qi|hi|si)",
 ]
 THUNK = re.compile(r"__x86\.get_pc_thunk\.\w+")  # position-independent code of 32-bit x86
 ALLOWED = re.compile("|".join([r"mem(cpy|move|set|cmp)", "_GLOBAL_OFFSET_TABLE_", *INTEGER_HELPERS]))
@@ -22,9 +23,7 @@ def check(tools, library, others=()):
     elsewhere = set().union(*(archive.Archive(other, tools).home() for other in others)) if others else set()
     needs = sorted(name for name in read.undefined() - elsewhere if not ALLOWED.fullmatch(name))
     complaints = [f"{library} needs {name}" for name in needs]
-    writable = read.bytes_of(archive.WRITABLE)
-    if writable:
-        complaints.append(f"{library} has {writable} bytes of writable data")
+    complaints += [f"{library} has writable data: {what}" for what in read.writable()]
     foreign = [name for name in read.home() if not name.startswith("roadpose_") and not THUNK.fullmatch(name)]
     return complaints + [f"{library} defines {name}" for name in sorted(foreign)]
 

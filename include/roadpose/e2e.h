@@ -32,7 +32,7 @@ extern "C" {
 #ifndef ROADPOSE_E2E_FIRST_COUNTER
 #define ROADPOSE_E2E_FIRST_COUNTER 0u
 #endif
-#if ROADPOSE_E2E_FIRST_COUNTER > 14
+#if ROADPOSE_E2E_FIRST_COUNTER < 0 || ROADPOSE_E2E_FIRST_COUNTER > 14
 #error "roadpose: set ROADPOSE_E2E_FIRST_COUNTER to 0...14: profile 1 has no other counters"
 #endif
 

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "command_line.h"
+#include "library_stack.h"
 
 #define SEMIHOSTING_GET_COMMAND_LINE 0x15
 
@@ -70,4 +71,11 @@ void board_start(board_arguments_t *arguments, int count, char *const values[]) 
 
 uint32_t board_instructions(void) {
     return ticks() * instructions_a_tick;
+}
+
+void board_call_on(board_work_t *work, void *argument, void *top) {
+    __asm__ volatile("mov r4, sp\n mov sp, %2\n mov r0, %1\n blx %0\n mov sp, r4"
+                     :
+                     : "r"(work), "r"(argument), "r"(top)
+                     : "r0", "r1", "r2", "r3", "r4", "r12", "lr", "cc", "memory");
 }

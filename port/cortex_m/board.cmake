@@ -2,7 +2,7 @@
 # says which: ROADPOSE_BOARD_MEMORY.
 function(roadpose_board NAME LIBRARY_RAM_BYTES)
     set(FOLDER ${PROJECT_SOURCE_DIR}/port/cortex_m)
-    target_sources(${NAME} PRIVATE ${FOLDER}/startup.c ${FOLDER}/board.c command_line.c)
+    target_sources(${NAME} PRIVATE ${FOLDER}/startup.c ${FOLDER}/board.c command_line.c library_stack.c)
     # Where gcc's own <stdint.h> comes before the C library's, as in Debian, its <inttypes.h> needs to be told.
     target_compile_definitions(${NAME} PRIVATE ROADPOSE_BOARD_SECTIONS __int64_t_defined=1)
     target_link_options(${NAME} PRIVATE --specs=rdimon.specs -nostartfiles -Wl,--gc-sections -L${FOLDER}

@@ -15,6 +15,13 @@
 #define BOARD_EXTERNAL_RAM
 #endif
 
+/* The stack that a product gives the library (docs/budgets.md). Unoptimised code takes more; nobody ships it. */
+#ifdef __OPTIMIZE__
+#define BOARD_LIBRARY_STACK_BYTES 1024
+#else
+#define BOARD_LIBRARY_STACK_BYTES 3072
+#endif
+
 #define BOARD_ARGUMENTS_MAX 10
 
 typedef struct {
@@ -30,5 +37,14 @@ void board_start(board_arguments_t *arguments, int count, char *const values[]);
  * where every instruction takes the same time, as in an emulator that counts them. Call it at least once in 100
  * million instructions. */
 uint32_t board_instructions(void);
+
+typedef void board_work_t(void *argument);
+
+/* Calls work(argument) on the library's own stack of BOARD_LIBRARY_STACK_BYTES, which lies in BOARD_LIBRARY_RAM; on a hosted
+ * machine on the caller's. Whatever reads files or prints needs more and must not be called in it. */
+void board_call(board_work_t *work, void *argument);
+
+/* How many bytes of that stack were ever in use; 0 on a hosted machine. */
+uint32_t board_stack_used(void);
 
 #endif

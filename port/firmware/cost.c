@@ -17,7 +17,7 @@ void cost_end_frame(cost_t *cost) {
     cost->frame = 0;
 }
 
-void cost_print(const cost_t *cost) {
-    (void)fprintf(stderr, "frames %" PRIu32 " instructions %" PRIu64 " worst_frame %" PRIu32 " worst_slice %" PRIu32 "\n",
-                  cost->frames, cost->instructions, cost->worst_frame, cost->worst_slice);
+void cost_print(const cost_t *cost, const char *name) {
+    (void)fprintf(stderr, "%s frames %" PRIu32 " instructions %" PRIu64 " worst_frame %" PRIu32 " worst_slice %" PRIu32 "\n",
+                  name, cost->frames, cost->instructions, cost->worst_frame, cost->worst_slice);
 }

@@ -18,7 +18,7 @@ void cost_add_slice(cost_t *cost, uint32_t instructions);
 /* Ends a frame. */
 void cost_end_frame(cost_t *cost);
 
-/* One line on standard error, so that standard output stays the same on every machine. */
-void cost_print(const cost_t *cost);
+/* Words of a line on standard error. */
+void cost_print(const cost_t *cost, const char *name);
 
 #endif

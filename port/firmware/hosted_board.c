@@ -1,4 +1,4 @@
-/* A machine with an operating system: nothing to start, and nothing to count with. */
+/* A machine with an operating system: nothing to start, nothing to count with, one stack. */
 #include "board.h"
 
 void board_start(board_arguments_t *arguments, int count, char *const values[]) {
@@ -10,5 +10,13 @@ void board_start(board_arguments_t *arguments, int count, char *const values[]) 
 }
 
 uint32_t board_instructions(void) {
+    return 0;
+}
+
+void board_call(board_work_t *work, void *argument) {
+    work(argument);
+}
+
+uint32_t board_stack_used(void) {
     return 0;
 }

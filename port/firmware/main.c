@@ -1,7 +1,7 @@
 /* roadpose-firmware: the component on an emulated microcontroller, or on any hosted machine, for comparison.
  *     roadpose-firmware RECORDING FRAMES CAN_LOG [WORD...]
- * Plays the first FRAMES frames. The words are: method-1, no-refine, e2e-2, e2e-5, and instructions, which tells on
- * standard error what the frames cost. A debugger's command line has no quotes: no argument contains a blank.
+ * Plays the first FRAMES frames. The words are: method-1, no-refine, e2e-2, e2e-5; fields, which
+ * prints every field of every frame as well; and cost, which tells on standard error what the frames cost. A debugger's command line has no quotes: no argument contains a blank.
  * Exit status: 0 played to the end, 2 bad arguments, 3 unreadable recording. */
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 typedef struct {
     player_options_t play;
-    bool tells_instructions;
+    bool tells_cost;
 } options_t;
 
 static bool take_word(options_t *options, const char *word) {
@@ -25,8 +25,10 @@ static bool take_word(options_t *options, const char *word) {
         options->play.profile = ROADPOSE_E2E_PROFILE_2;
     else if (strcmp(word, "e2e-5") == 0)
         options->play.profile = ROADPOSE_E2E_PROFILE_5;
-    else if (strcmp(word, "instructions") == 0)
-        options->tells_instructions = true;
+    else if (strcmp(word, "fields") == 0)
+        options->play.tells_fields = true;
+    else if (strcmp(word, "cost") == 0)
+        options->tells_cost = true;
     else
         return fault(word, "is no word of this program");
     return true;
@@ -57,7 +59,7 @@ int main(int count, char *values[]) {
         return EXIT_BAD_ARGUMENTS;
     if (!player_play(&options.play))
         return EXIT_BAD_RECORDING;
-    if (options.tells_instructions)
-        cost_print(player_cost());
+    if (options.tells_cost)
+        player_print_cost();
     return EXIT_SUCCESS;
 }

@@ -5,7 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifndef PROGRAM /* the firmware, which shares this file, is called otherwise */
 #define PROGRAM "roadpose-replay"
+#endif
 #define MESSAGE_BYTES 512
 
 static bool is_progress_shown;

@@ -25,6 +25,7 @@ struct roadpose_camera_context {
     bool prints;                                                   /* the poses, on standard output */
     can_bus_t can;
     motion_t motion;
+    roadpose_heading_t heading;
 };
 
 typedef struct {
@@ -156,7 +157,8 @@ static bool set_up(replay_t *replay) {
     if (!join_path(path, replay->options.recording, "rig.yml") || !rig_file_read(&replay->rig_file, path))
         return false;
     if (!recording_open(&replay->recording, replay->options.recording) ||
-        !motion_open(&replay->camera.motion, replay->options.recording, &replay->recording, &replay->rig_file))
+        !motion_open(&replay->camera.motion, &replay->camera.heading, replay->options.recording, &replay->recording,
+                     &replay->rig_file))
         return false;
     result =
         roadpose_init(&replay->estimator, &replay->rig_file.rig, &replay->rig_file.format, &replay->options.settings);

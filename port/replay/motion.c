@@ -95,10 +95,12 @@ static bool allocate(motion_t *motion, const rig_file_t *rig_file) {
            fault(motion->folder, "is larger than memory");
 }
 
-bool motion_open(motion_t *motion, const char *path, const recording_t *recording, const rig_file_t *rig_file) {
+bool motion_open(motion_t *motion, roadpose_heading_t *heading, const char *path, const recording_t *recording,
+                 const rig_file_t *rig_file) {
     roadpose_result_t result;
 
     memset(motion, 0, sizeof *motion);
+    motion->heading = heading;
     if (!join_path(motion->vehicle_path, path, "vehicle.csv") || !find_source(motion, path, recording))
         return false;
     if (motion->source == MOTION_NONE)
@@ -109,7 +111,7 @@ bool motion_open(motion_t *motion, const char *path, const recording_t *recordin
     motion->interval_us = (int32_t)(MICRO * 1000 / rig_file->rate_millihz);
     motion->interval_us = motion->interval_us < INTERVAL_MIN_US ? INTERVAL_MIN_US : motion->interval_us;
     motion->interval_us = motion->interval_us > INTERVAL_MAX_US ? INTERVAL_MAX_US : motion->interval_us;
-    result = roadpose_heading_init(&motion->heading, &rig_file->rig, NULL);
+    result = roadpose_heading_init(motion->heading, &rig_file->rig, NULL);
     if (result == ROADPOSE_OK)
         result = roadpose_tracker_init(&motion->tracker, NULL);
     if (result != ROADPOSE_OK)
@@ -239,7 +241,7 @@ bool motion_estimate(motion_t *motion, const roadpose_pose_t *pose) {
 
     if (motion->source == MOTION_NONE)
         return false;
-    return roadpose_heading_process(&motion->heading, motion->tracks, motion->count, &motion->motion, normal_q30,
+    return roadpose_heading_process(motion->heading, motion->tracks, motion->count, &motion->motion, normal_q30,
                                     &motion->yaw) == ROADPOSE_OK &&
-           roadpose_heading_running(&motion->heading, &motion->running) == ROADPOSE_OK;
+           roadpose_heading_running(motion->heading, &motion->running) == ROADPOSE_OK;
 }

@@ -23,7 +23,7 @@ typedef struct {
     bool has_previous;       /* a frame before this one */
     uint32_t previous_frame; /* its number */
     roadpose_motion_t motion;
-    roadpose_heading_t heading;
+    roadpose_heading_t *heading; /* the caller's */
     roadpose_tracker_t tracker;
     roadpose_grey_t image[2]; /* this frame's and the previous one's, in turn */
     uint8_t *pixels[2];
@@ -34,9 +34,10 @@ typedef struct {
     roadpose_running_yaw_t running;
 } motion_t;
 
-/* Looks for what the recording has. Reports a fault and returns false when that cannot be used. Close it in either
- * case. */
-bool motion_open(motion_t *motion, const char *path, const recording_t *recording, const rig_file_t *rig_file);
+/* Looks for what the recording has. *heading is the caller's, must live on, and is made ready here. Reports a fault and
+ * returns false when the recording cannot be used. Close it in either case. */
+bool motion_open(motion_t *motion, roadpose_heading_t *heading, const char *path, const recording_t *recording,
+                 const rig_file_t *rig_file);
 void motion_close(motion_t *motion);
 
 /* Reads what belongs to a frame. Reports a fault and returns false. */

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "command_line.h"
+#include "library_stack.h"
 
 #define SEMIHOSTING_GET_COMMAND_LINE 0x15
 
@@ -45,4 +46,12 @@ uint32_t board_instructions(void) {
     passed = count - last_count;
     last_count = count;
     return passed;
+}
+
+void board_call_on(board_work_t *work, void *argument, void *top) {
+    __asm__ volatile("mv s1, sp\n mv sp, %2\n mv a0, %1\n jalr %0\n mv sp, s1"
+                     :
+                     : "r"(work), "r"(argument), "r"(top)
+                     : "ra", "t0", "t1", "t2", "t3", "t4", "t5", "t6", "a0", "a1", "a2", "a3", "a4", "a5", "a6", "a7",
+                       "s1", "memory");
 }

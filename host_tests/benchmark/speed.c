@@ -103,8 +103,9 @@ static int time_recording(const recording_t *recording, int repeats) {
     if (failed) fprintf(stderr, "roadpose-speed: roadpose_init says %d\n", (int)result);
     printf("%s, %d x %d, medians of %d runs\n\n", recording->name, rig.width_px, rig.height_px, repeats);
     printf("| frame | status | pipeline us | plain v-disparity pass us | ratio |\n|---:|---|---:|---:|---:|\n");
-    for (int i = 0; !failed && i < recording->frames && i < 5; i++)
-        failed = time_frame(recording, samples, i * recording->frames / 5 % recording->frames, repeats, buffer);
+    const int shown = recording->frames < 5 ? recording->frames : 5;
+    for (int i = 0; !failed && i < shown; i++)
+        failed = time_frame(recording, samples, i * recording->frames / shown, repeats, buffer);
     printf("\nMemory of one instance: %zu bytes (%.1f KiB).\n", roadpose_state_bytes(),
            (double)roadpose_state_bytes() / 1024);
     free(buffer);

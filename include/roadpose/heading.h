@@ -133,27 +133,38 @@ typedef struct {
     int32_t px_q22;    /* one pixel as an angle */
     int32_t cu_q8;
     int32_t cv_q8;
-    int32_t u_max_q8;  /* last column and row */
-    int32_t v_max_q8;
+    int32_t u_low_q8;  /* columns and rows of the image that are not too far from the axis: first, number less one */
+    int32_t u_span_q8;
+    int32_t v_low_q8;
+    int32_t v_span_q8;
+    int32_t jump_q8;   /* longest step of a track along an axis */
     int32_t focal_millipx;
 } roadpose_lens_t;
 
 typedef struct {
-    int32_t du_q22[ROADPOSE_MAX_VOTERS]; /* flow without the vehicle's rotation */
-    int32_t dv_q22[ROADPOSE_MAX_VOTERS];
-    int32_t turn_u_q22[ROADPOSE_MAX_VOTERS]; /* what one step of the search for a turn adds to it */
-    int32_t turn_v_q22[ROADPOSE_MAX_VOTERS];
     int16_t mx_q12[ROADPOSE_MAX_VOTERS];
     int16_t my_q12[ROADPOSE_MAX_VOTERS];
-    int16_t dx_q15[ROADPOSE_MAX_VOTERS];
+    int16_t dx_q15[ROADPOSE_MAX_VOTERS]; /* flow without the vehicle's rotation */
     int16_t dy_q15[ROADPOSE_MAX_VOTERS];
+    int16_t turn_u_q18[ROADPOSE_MAX_VOTERS]; /* what one step of the search for a turn adds to it */
+    int16_t turn_v_q18[ROADPOSE_MAX_VOTERS];
     uint16_t count;
 } roadpose_voters_t;
 
+#define ROADPOSE_MAX_HYPOTHESES 80
+
+/* A focus of expansion and a rotation, and how many points the voters gave it. */
+typedef struct {
+    int16_t fx_q12;
+    int16_t fy_q12;
+    int16_t steps;
+    uint16_t points;
+} roadpose_hypothesis_t;
+
 /* Normal equations of up to five unknowns, and their factors. */
 typedef struct {
-    int64_t h[5][5]; /* lower triangle: weight j j, q40 */
-    int64_t g[5];    /* weight j e, q46 */
+    int64_t h[15]; /* lower triangle, row by row: weight j j, q40 */
+    int64_t g[5];  /* weight j e, q46 */
 } roadpose_sums_t;
 
 typedef struct {
@@ -172,6 +183,7 @@ typedef struct {
     roadpose_factors_t factors;
     uint16_t bins[ROADPOSE_NOISE_BINS];
     int32_t noise_q22;
+    int32_t cost_q8;   /* of all flows looked at */
     uint16_t agreeing; /* moving flows within three deviations that stream away from the focus */
 } roadpose_round_t;
 
@@ -183,6 +195,7 @@ typedef struct {
     uint16_t flows;
     uint16_t flows_moving; /* the first ones */
     roadpose_voters_t voters;
+    roadpose_hypothesis_t hypothesis[ROADPOSE_MAX_HYPOTHESES];
     roadpose_round_t round;
     int32_t history_urad[ROADPOSE_YAW_HISTORY];
     int32_t history_sigma_urad[ROADPOSE_YAW_HISTORY];

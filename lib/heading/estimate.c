@@ -335,7 +335,7 @@ static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motio
     return (open || sigma > s->sigma_max_urad) ? ROADPOSE_YAW_UNCERTAIN : ROADPOSE_YAW_OK;
 }
 
-static void fill_angles(const roadpose_heading_t *instance, const outcome_t *out, const int32_t *normal_q30,
+static void fill_angles(roadpose_heading_t *instance, const outcome_t *out, const int32_t *normal_q30,
                         int32_t sigma, roadpose_yaw_t *yaw) {
     const int32_t *focus = out->chosen.motion.focus_q24;
     const int32_t angle = roadpose_yaw_angle(focus, normal_q30);
@@ -343,6 +343,7 @@ static void fill_angles(const roadpose_heading_t *instance, const outcome_t *out
         yaw->status = ROADPOSE_YAW_OUTSIDE_LIMITS;
         return;
     }
+    instance->free_urad = roadpose_yaw_angle(out->motion.motion.focus_q24, normal_q30) - angle;
     yaw->yaw_urad = angle;
     yaw->sigma_urad = sigma;
     yaw->pitch_difference_urad = roadpose_descent(focus, normal_q30);

@@ -217,6 +217,28 @@ static void test_running_yaw(void) {
     TEST_ASSERT_EQUAL(300, heading.running.accepted);
 }
 
+/* A free rotation that would change every frame alike is believed; one that scatters about nothing is not. Frames of 8000
+ * urad; the free fit scatters by 2000, so 64 frames tell its mean to 250. */
+static double yaw_with_free_fits(double mean_urad) {
+    static roadpose_heading_t heading;
+    memset(&heading, 0, sizeof heading);
+    for (int i = 0; i < ROADPOSE_YAW_HISTORY; i++) {
+        const roadpose_yaw_t yaw = {.status = ROADPOSE_YAW_OK, .sigma_urad = 1000, .yaw_urad = 8000};
+        heading.free_urad = (int32_t)lround(mean_urad + (i & 1 ? 2000 : -2000));
+        roadpose_running_add(&heading, &yaw);
+    }
+    return heading.running.yaw_urad;
+}
+
+static void test_running_yaw_believes_a_common_rotation(void) {
+    TEST_ASSERT_EQUAL(8000, yaw_with_free_fits(0));
+    TEST_ASSERT_EQUAL(8000, yaw_with_free_fits(700));
+    TEST_ASSERT_DOUBLE_WITHIN(150, 12000 - 140, yaw_with_free_fits(4000)); /* less 9 * 250^2 / 4000 */
+    TEST_ASSERT_DOUBLE_WITHIN(150, 4000 + 140, yaw_with_free_fits(-4000));
+    /* At most a degree of one frame counts. */
+    TEST_ASSERT_DOUBLE_WITHIN(10, 8000 + 17453, yaw_with_free_fits(1000000));
+}
+
 static void test_running_yaw_counts_refusals(void) {
     static roadpose_heading_t heading;
     const roadpose_yaw_t slow = {.status = ROADPOSE_YAW_SLOW};
@@ -240,6 +262,7 @@ int main(void) {
     RUN_TEST(test_unknowns_that_cannot_be_told_apart);
     RUN_TEST(test_yaw_and_pitch_angles);
     RUN_TEST(test_running_yaw);
+    RUN_TEST(test_running_yaw_believes_a_common_rotation);
     RUN_TEST(test_running_yaw_counts_refusals);
     return UNITY_END();
 }

@@ -189,6 +189,9 @@ static void pass(roadpose_heading_t *instance, const roadpose_fit_t *fit, unsign
         const int32_t weight = rest * rest >> 16;
         agreeing += (i < instance->flows_moving && s.off_q22 <= view.short_q22) ? 1u : 0u;
         cost_q12 -= (uint32_t)(weight * rest >> 8);
+        if (unknowns == 0) {
+            continue;
+        }
         focus_row(&s, j_q16);
         roadpose_sums_add_focus(&round->sums, j_q16, s.e_q22, weight);
         if (turning) {
@@ -252,6 +255,6 @@ bool roadpose_fit_rounds(roadpose_heading_t *instance, roadpose_fit_t *fit, unsi
 }
 
 int32_t roadpose_fit_cost(roadpose_heading_t *instance, const roadpose_fit_t *fit) {
-    pass(instance, fit, ROADPOSE_UNKNOWNS_FOCUS, 1);
+    pass(instance, fit, 0, 1);
     return instance->round.cost_q8;
 }

@@ -27,28 +27,32 @@ static void test_length(void) {
     }
 }
 
-/* Truncations: 1 LSB of q16 in xy, xx, yy times |turn| <= 1/2 (q24 to q22: 2^5 LSB), and one of the shift. */
+static void turn_flow(double x, double y, const double w[3], int32_t flow[2]) {
+    const roadpose_turn_terms_t terms = roadpose_turn_terms((int32_t)lround(ldexp(x, 16)), (int32_t)lround(ldexp(y, 16)));
+    const int32_t turn[3] = {(int32_t)lround(ldexp(w[0], 28)), (int32_t)lround(ldexp(w[1], 28)), (int32_t)lround(ldexp(w[2], 28))};
+    roadpose_turn_flow(&terms, turn, flow);
+}
+
+/* x and y are cut to q13: 2^-13 times |turn| <= 1/2 times the slopes of the terms, 2 |x| + |y| + 1 <= 7, twice: 4000 in q22. */
 static void test_flow_of_a_rotation(void) {
     for (int i = 0; i < 100000; i++) {
         const double x = uniform(-2, 2), y = uniform(-2, 2);
         const double w[3] = {uniform(-0.5, 0.5), uniform(-0.5, 0.5), uniform(-0.5, 0.5)};
-        const int32_t turn[3] = {(int32_t)ldexp(w[0], 24), (int32_t)ldexp(w[1], 24), (int32_t)ldexp(w[2], 24)};
         int32_t flow[2];
-        roadpose_turn_flow((int32_t)ldexp(x, 16), (int32_t)ldexp(y, 16), turn, flow);
+        turn_flow(x, y, w, flow);
         const double du = x * y * w[0] - (1 + x * x) * w[1] + y * w[2];
         const double dv = (1 + y * y) * w[0] - x * y * w[1] - x * w[2];
-        TEST_ASSERT_TRUE(fabs(ldexp(du, 22) - flow[0]) <= 400 && fabs(ldexp(dv, 22) - flow[1]) <= 400);
+        TEST_ASSERT_TRUE(fabs(ldexp(du, 22) - flow[0]) <= 4000 && fabs(ldexp(dv, 22) - flow[1]) <= 4000);
     }
 }
 
 /* The rotation's flow is that of turning the camera: a point seen through R(-w). */
 static void test_flow_is_that_of_a_turning_camera(void) {
-    const double w = 1e-4, x = 0.3, y = -0.2;
-    const int32_t turn[3] = {0, (int32_t)ldexp(w, 24), 0};
+    const double w[3] = {0, 1e-4, 0}, x = 0.3, y = -0.2;
     int32_t flow[2];
-    roadpose_turn_flow((int32_t)ldexp(x, 16), (int32_t)ldexp(y, 16), turn, flow);
-    const double z = x * sin(w) + cos(w); /* the axis turns to the right (x): the point moves to the left */
-    TEST_ASSERT_DOUBLE_WITHIN(8, ldexp((x * cos(w) - sin(w)) / z - x, 22), flow[0]);
+    turn_flow(x, y, w, flow);
+    const double z = x * sin(w[1]) + cos(w[1]); /* the axis turns to the right (x): the point moves to the left */
+    TEST_ASSERT_DOUBLE_WITHIN(8, ldexp((x * cos(w[1]) - sin(w[1])) / z - x, 22), flow[0]);
     TEST_ASSERT_DOUBLE_WITHIN(8, ldexp(y / z - y, 22), flow[1]);
 }
 
@@ -71,7 +75,8 @@ static void random_problem(roadpose_sums_t *sums, double_sums_t *reference, cons
             e += ldexp(j[k], -16) * truth[k];
         }
         const int32_t e_q22 = (int32_t)lround(ldexp(e, 22)), weight = (int32_t)random_between(&numbers, 0, 256);
-        roadpose_sums_add(sums, 5, j, e_q22, weight);
+        roadpose_sums_add_focus(sums, j, e_q22, weight);
+        roadpose_sums_add_turn(sums, j, e_q22, weight);
         for (int r = 0; r < 5; r++) {
             for (int c = 0; c < 5; c++) reference->h[r][c] += weight / 256.0 * ldexp(j[r], -16) * ldexp(j[c], -16);
             reference->g[r] += weight / 256.0 * ldexp(j[r], -16) * ldexp(e_q22, -22);
@@ -164,7 +169,10 @@ static void test_unknowns_that_cannot_be_told_apart(void) {
     roadpose_factors_t factors;
     memset(&sums, 0, sizeof sums);
     TEST_ASSERT_FALSE(roadpose_factorise(&sums, 2, &factors));
-    for (int i = 0; i < 100; i++) roadpose_sums_add(&sums, 5, row, 100, 256);
+    for (int i = 0; i < 100; i++) {
+        roadpose_sums_add_focus(&sums, row, 100, 256);
+        roadpose_sums_add_turn(&sums, row, 100, 256);
+    }
     TEST_ASSERT_FALSE(roadpose_factorise(&sums, 2, &factors));
     TEST_ASSERT_FALSE(roadpose_factorise(&sums, 5, &factors));
 }
@@ -186,8 +194,8 @@ static void test_yaw_and_pitch_angles(void) {
         TEST_ASSERT_INT_WITHIN(3, lround(1e6 * asin(normal[2])), roadpose_pitch_of_normal(n));
         TEST_ASSERT_TRUE(roadpose_is_unit(n));
     }
-    const int32_t no_units[][3] = {{0, 0, 0}, {0, 1 << 29, 0}, {INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MAX, 0, 0}};
-    for (int i = 0; i < 4; i++) TEST_ASSERT_FALSE(roadpose_is_unit(no_units[i]));
+    const int32_t no_units[][3] = {{0, 0, 0}, {0, 1 << 29, 0}, {0, 1041529569, 0}, {INT32_MIN, INT32_MIN, INT32_MIN}, {INT32_MAX, 0, 0}};
+    for (int i = 0; i < 5; i++) TEST_ASSERT_FALSE(roadpose_is_unit(no_units[i])); /* the third: 3 % short */
 }
 
 /* The mean of what is remembered, wherever the history begins; a tenth of wild values does not move it. */
@@ -207,6 +215,28 @@ static void test_running_yaw(void) {
     TEST_ASSERT_INT_WITHIN(400, 1100, heading.running.spread_urad);
     TEST_ASSERT_EQUAL(ROADPOSE_YAW_HISTORY, heading.running.count);
     TEST_ASSERT_EQUAL(300, heading.running.accepted);
+}
+
+/* A free rotation that would change every frame alike is believed; one that scatters about nothing is not. Frames of 8000
+ * urad; the free fit scatters by 2000, so 64 frames tell its mean to 250. */
+static double yaw_with_free_fits(double mean_urad) {
+    static roadpose_heading_t heading;
+    memset(&heading, 0, sizeof heading);
+    for (int i = 0; i < ROADPOSE_YAW_HISTORY; i++) {
+        const roadpose_yaw_t yaw = {.status = ROADPOSE_YAW_OK, .sigma_urad = 1000, .yaw_urad = 8000};
+        heading.free_urad = (int32_t)lround(mean_urad + (i & 1 ? 2000 : -2000));
+        roadpose_running_add(&heading, &yaw);
+    }
+    return heading.running.yaw_urad;
+}
+
+static void test_running_yaw_believes_a_common_rotation(void) {
+    TEST_ASSERT_EQUAL(8000, yaw_with_free_fits(0));
+    TEST_ASSERT_EQUAL(8000, yaw_with_free_fits(700));
+    TEST_ASSERT_DOUBLE_WITHIN(150, 12000 - 140, yaw_with_free_fits(4000)); /* less 9 * 250^2 / 4000 */
+    TEST_ASSERT_DOUBLE_WITHIN(150, 4000 + 140, yaw_with_free_fits(-4000));
+    /* At most a degree of one frame counts. */
+    TEST_ASSERT_DOUBLE_WITHIN(10, 8000 + 17453, yaw_with_free_fits(1000000));
 }
 
 static void test_running_yaw_counts_refusals(void) {
@@ -232,6 +262,7 @@ int main(void) {
     RUN_TEST(test_unknowns_that_cannot_be_told_apart);
     RUN_TEST(test_yaw_and_pitch_angles);
     RUN_TEST(test_running_yaw);
+    RUN_TEST(test_running_yaw_believes_a_common_rotation);
     RUN_TEST(test_running_yaw_counts_refusals);
     return UNITY_END();
 }

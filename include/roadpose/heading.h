@@ -3,8 +3,8 @@
  * When the car drives straight, points that stand still stream away from the focus of expansion, the image of the
  * direction of travel (the paper, section 3.2). From tracks (the same points in two frames): intersections of track lines,
  * RANSAC, then a robust fit that weighs each track by 1 / (sigma sqrt(2) r / L)^2 (r its distance from the focus, L its
- * length). The fit is made twice, with and without a rotation of the camera between the frames: a turn, and any pitching
- * of the car, shows as a rotation that the tracks insist on. docs/heading.md tells the method and what it reaches.
+ * length). The fit asks each time whether a rotation of the camera between the frames explains the tracks better: a turn, and
+ * any pitching of the car, shows as a rotation that the tracks insist on. docs/heading.md tells the method and what it reaches.
  *
  * Use: one roadpose_heading_t for each camera, in memory that the caller owns; roadpose_heading_init() once;
  * roadpose_heading_process() for each pair of frames, with the road normal of the pose (roadpose_pose_t.normal_q30);
@@ -62,8 +62,8 @@ typedef struct {
     int32_t moving_min_millipx;    /* a track this long moves, 500...20 000. Default 2000 */
     int32_t noise_max_millipx;     /* largest spread across the direction of flow, 100...5000. Default 1000 */
     int32_t speed_min_mm_s;        /* where speed is given: no yaw below it, 0...50 000. Default 3000 */
-    int32_t yaw_rate_max_urad_s;   /* no yaw in sharper turns, by the vehicle or by the tracks, 1000...1 000 000.
-                                      Default 61 087 (3.5 deg/s) */
+    int32_t yaw_rate_max_urad_s;   /* no yaw in sharper turns, by the vehicle or by the tracks (rate and three deviations),
+                                      1000...1 000 000. Default 61 087 (3.5 deg/s) */
     int32_t rate_sigma_max_urad_s; /* where the vehicle gives no yaw rate: how well the tracks must tell it, 1000...
                                       1 000 000. Default 13 090 (0.75 deg/s) */
     int32_t sigma_max_urad;        /* largest standard deviation of a frame's yaw, 100...100 000. Default 4363 (0.25 deg).
@@ -83,7 +83,9 @@ typedef enum {
                                         of all move and agree */
     ROADPOSE_YAW_NO_FOCUS = 5,       /* no single focus explains the tracks: too few agree with the best one */
     ROADPOSE_YAW_NOISY = 6,          /* they agree, but within more than noise_max_millipx */
-    ROADPOSE_YAW_AMBIGUOUS = 7,      /* these tracks cannot tell a turn from straight travel, and nothing else does */
+    ROADPOSE_YAW_AMBIGUOUS = 7,      /* these tracks cannot tell a turn from straight travel, and nothing else does: the yaw
+                                        rate is too uncertain, a turn explains them about as well, or they show one that
+                                        too few of them share */
     ROADPOSE_YAW_UNCERTAIN = 8,      /* the standard deviation exceeds sigma_max_urad */
     ROADPOSE_YAW_NO_ROAD = 9,        /* no road normal was given: a focus, but no yaw */
     ROADPOSE_YAW_OUTSIDE_LIMITS = 10 /* yaw exceeds yaw_max_urad */
@@ -111,9 +113,10 @@ typedef struct {
     uint32_t dropped_limit;        /* tracks not used: more than ROADPOSE_MAX_TRACKS */
 } roadpose_yaw_t;
 
-/* Yaw over the drive. count 0: there is none yet, the other fields are 0. */
+/* Yaw over the drive: a robust weighted mean of the frames' yaws, and, where a rotation too small for a single frame is
+ * common to all of them, what it changes. count 0: there is none yet, the other fields are 0. */
 typedef struct {
-    int32_t yaw_urad;     /* robust weighted mean of the remembered frames */
+    int32_t yaw_urad;     /* of the remembered frames */
     int32_t spread_urad;  /* robust standard deviation of one frame about it */
     uint16_t count;       /* frames in it, at most ROADPOSE_YAW_HISTORY */
     uint32_t accepted;    /* frames accepted since init or restart */
@@ -133,27 +136,38 @@ typedef struct {
     int32_t px_q22;    /* one pixel as an angle */
     int32_t cu_q8;
     int32_t cv_q8;
-    int32_t u_max_q8;  /* last column and row */
-    int32_t v_max_q8;
+    int32_t u_low_q8;  /* columns and rows of the image that are not too far from the axis: first, number less one */
+    int32_t u_span_q8;
+    int32_t v_low_q8;
+    int32_t v_span_q8;
+    int32_t jump_q8;   /* longest step of a track along an axis */
     int32_t focal_millipx;
 } roadpose_lens_t;
 
 typedef struct {
-    int32_t du_q22[ROADPOSE_MAX_VOTERS]; /* flow without the vehicle's rotation */
-    int32_t dv_q22[ROADPOSE_MAX_VOTERS];
-    int32_t turn_u_q22[ROADPOSE_MAX_VOTERS]; /* what one step of the search for a turn adds to it */
-    int32_t turn_v_q22[ROADPOSE_MAX_VOTERS];
     int16_t mx_q12[ROADPOSE_MAX_VOTERS];
     int16_t my_q12[ROADPOSE_MAX_VOTERS];
-    int16_t dx_q15[ROADPOSE_MAX_VOTERS];
+    int16_t dx_q15[ROADPOSE_MAX_VOTERS]; /* flow without the vehicle's rotation */
     int16_t dy_q15[ROADPOSE_MAX_VOTERS];
+    int16_t turn_u_q18[ROADPOSE_MAX_VOTERS]; /* what one step of the search for a turn adds to it */
+    int16_t turn_v_q18[ROADPOSE_MAX_VOTERS];
     uint16_t count;
 } roadpose_voters_t;
 
+#define ROADPOSE_MAX_HYPOTHESES 80
+
+/* A focus of expansion and a rotation, and how many points the voters gave it. */
+typedef struct {
+    int16_t fx_q12;
+    int16_t fy_q12;
+    int16_t steps;
+    uint16_t points;
+} roadpose_hypothesis_t;
+
 /* Normal equations of up to five unknowns, and their factors. */
 typedef struct {
-    int64_t h[5][5]; /* lower triangle: weight j j, q40 */
-    int64_t g[5];    /* weight j e, q46 */
+    int64_t h[15]; /* lower triangle, row by row: weight j j, q40 */
+    int64_t g[5];  /* weight j e, q46 */
 } roadpose_sums_t;
 
 typedef struct {
@@ -172,6 +186,7 @@ typedef struct {
     roadpose_factors_t factors;
     uint16_t bins[ROADPOSE_NOISE_BINS];
     int32_t noise_q22;
+    int32_t cost_q8;   /* of all flows looked at */
     uint16_t agreeing; /* moving flows within three deviations that stream away from the focus */
 } roadpose_round_t;
 
@@ -183,10 +198,13 @@ typedef struct {
     uint16_t flows;
     uint16_t flows_moving; /* the first ones */
     roadpose_voters_t voters;
+    roadpose_hypothesis_t hypothesis[ROADPOSE_MAX_HYPOTHESES];
     roadpose_round_t round;
     int32_t history_urad[ROADPOSE_YAW_HISTORY];
     int32_t history_sigma_urad[ROADPOSE_YAW_HISTORY];
+    int32_t history_free_urad[ROADPOSE_YAW_HISTORY];
     int32_t sorted_urad[ROADPOSE_YAW_HISTORY];
+    int32_t free_urad; /* what a free rotation would add to this frame's yaw */
     uint16_t history_next;
     roadpose_running_yaw_t running;
 } roadpose_heading_t;
@@ -206,9 +224,9 @@ roadpose_result_t roadpose_heading_init(roadpose_heading_t *instance, const road
  * and the frames are taken as 100 ms apart. normal_q30: three numbers, unit normal of the road in camera axes as in
  * roadpose_pose_t; NULL: not known in this frame. *yaw is written only on ROADPOSE_OK.
  * Returns ROADPOSE_OK, ROADPOSE_ERROR_NULL, _ORDER (not initialised), or _SETTINGS (interval out of range, or the
- * normal is not of unit length within 1 %). Cost: at most two passes over all tracks, 48 hypotheses against at most
- * ROADPOSE_MAX_VOTERS tracks, 40 more where the vehicle gives no yaw rate and another 160 where the fit is doubtful, and
- * at most 21 passes over ROADPOSE_MAX_TRACKS tracks. */
+ * normal is not of unit length within 1 %). Cost: at most two passes over all tracks; 40 hypotheses, 80 more where the vehicle
+ * gives no yaw rate, of which a third are heard by 24 of ROADPOSE_MAX_VOTERS tracks and a tenth by all; six coarse passes,
+ * over a third of ROADPOSE_MAX_TRACKS tracks, and six over all. */
 roadpose_result_t roadpose_heading_process(roadpose_heading_t *instance, const roadpose_track_t *tracks, size_t count,
                                            const roadpose_motion_t *motion, const int32_t *normal_q30,
                                            roadpose_yaw_t *yaw);

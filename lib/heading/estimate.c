@@ -1,5 +1,6 @@
 /* From a flow field to a yaw: search, fits with and without rotation, choice between them, gates. */
 #include <stddef.h>
+#include <string.h>
 
 #include "heading/expansion_fit.h"
 #include "heading/flow_field.h"
@@ -7,20 +8,21 @@
 #include "heading/heading.h"
 #include "heading/yaw_angle.h"
 
-#define HYPOTHESES 48u
-#define HYPOTHESES_TURNING 4u /* for each of the rotations that are tried */
-#define HYPOTHESES_DOUBTFUL 16u
-#define DOUBTFUL_NOISE_PERCENT 45 /* of a pixel */
-#define DOUBTFUL_SHARE_PERCENT 75u
-#define FOCUS_ROUNDS 2u, 1u /* coarse, fine */
-#define MOTION_ROUNDS 2u, 1u /* and a last one, which tells what the fit leaves open */
-#define LAST_ROUNDS 1u
-#define LAST_ROUNDS_TURNED 2u /* the focus has just been moved */
-#define BETTER_Q8 2048       /* a fit that began in a turn must cost this much less: 8 squared deviations */
-#define SIGNIFICANT_Q8 2048  /* below this chi-square (three degrees of freedom: 95 % quantile 7.8) no rotation is seen */
-#define OUTLIERS_Q8 8192     /* more where tracks disagree, times their share squared */
-#define START_NOISE_PERCENT 70
-#define TURN_MAX_Q24 838861  /* 1/20 rad between two frames */
+#define PAIRS 40u
+#define PAIRS_TURNING 8u          /* for each of the rotations that are tried */
+#define START_FOCUS_PERCENT 70    /* of a pixel: noise that a fit begins with */
+#define START_TURNING_PERCENT 50
+#define COARSE_FOCUS 3u           /* rounds */
+#define COARSE_TURNING 3u
+#define SIGNIFICANT_Q8 2048       /* below this chi-square (three degrees of freedom: 95 % quantile 7.8) no rotation is seen */
+#define OUTLIERS_Q8 8192          /* more where tracks disagree, times their share squared */
+#define LOOK_CLOSER 3             /* a third of that is worth a free fit */
+#define SAVING_Q8 1024            /* a rotation must cost this much less */
+#define RIVAL_Q8 5120             /* a turn that costs no more than this more is not excluded */
+#define CLEAR_PERCENT 75u         /* of the moving tracks agree: no crowd of other things is as large */
+#define TURNED_PERCENT 60u        /* of them must agree with a motion that was found by the search for a turn */
+#define SURE 3                    /* deviations by which a turn must be excluded where the vehicle tells no yaw rate */
+#define TURN_MAX_Q24 838861       /* 1/20 rad between two frames */
 #define MICRO INT64_C(1000000)
 
 /* What the fits say; deviations in q22. */
@@ -28,11 +30,16 @@ typedef struct {
     roadpose_fit_t focus;    /* rotation as given by the vehicle, or none */
     roadpose_fit_t motion;   /* with a rotation */
     roadpose_fit_t chosen;
+    int64_t significance_q8; /* of the rotation: chi-square */
+    int32_t chance_q8;       /* what chance may reach of it */
+    int32_t focus_cost_q8;
     int32_t rate_deviation;  /* of the fitted rotation about the vertical, a frame */
     int32_t free_deviation;  /* of the focus along the road, with a rotation */
     int32_t deviation;       /* of the chosen focus along the road */
-    uint16_t agreeing;       /* moving tracks that agree with it */
     int32_t left_q16;        /* share of the found rotation that is taken for noise, 0...65536 */
+    int32_t rival_q24[3];    /* a rotation that explains the flows about as well as none, or none */
+    uint16_t agreeing;       /* moving tracks that agree with the chosen focus */
+    bool turned;             /* the search for a turn found the motion */
 } outcome_t;
 
 static int64_t q24_of_urad(int64_t urad) {
@@ -89,53 +96,48 @@ static uint8_t track_gate(const roadpose_heading_t *instance, const roadpose_yaw
     return few ? ROADPOSE_YAW_STANDING : ROADPOSE_YAW_OK;
 }
 
-/* The better of two free fits; *other loses a near tie. */
-static void take_cheaper(const roadpose_heading_t *instance, roadpose_fit_t *fit, const roadpose_fit_t *other) {
-    const int32_t noise = (other->noise_q22 < fit->noise_q22) ? other->noise_q22 : fit->noise_q22;
-    if (roadpose_fit_cost(instance, &other->motion, noise) + BETTER_Q8 <
-        roadpose_fit_cost(instance, &fit->motion, noise)) {
-        *fit = *other;
-    }
+static int32_t smaller(int32_t a, int32_t b) {
+    return (a < b) ? a : b;
 }
 
-/* The free fit, begun at the focus; where the vehicle gives no yaw rate begun in a turn as well, if a turn scores
- * better, and only there if it scores much better. */
-static bool fit_free(roadpose_heading_t *instance, bool rate_known, uint32_t score, uint32_t *random, outcome_t *out) {
-    const int32_t start = roadpose_noise_max_q22(instance) * START_NOISE_PERCENT / 150;
-    roadpose_fit_t turning = {.motion = {{0, 0}, {0, 0, 0}}, .noise_q22 = start};
-    const uint32_t turning_score =
-        rate_known ? 0 : roadpose_focus_search_turning(instance, HYPOTHESES_TURNING, random, &turning.motion);
-    out->motion = out->focus;
-    out->motion.noise_q22 = (start > out->focus.noise_q22) ? start : out->focus.noise_q22;
-    if (turning_score * 8u > score * 9u) {
-        out->motion = turning;
-        return roadpose_fit_rounds(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS);
+static int32_t noise_q22(const roadpose_heading_t *instance, int32_t percent) {
+    return instance->lens.px_q22 * percent / 100;
+}
+
+/* Robust cost of a fit at a noise, which two fits must have in common to be compared. */
+static int32_t cost_at(roadpose_heading_t *instance, const roadpose_fit_t *fit, int32_t noise) {
+    roadpose_fit_t same = *fit;
+    same.noise_q22 = noise;
+    return roadpose_fit_cost(instance, &same);
+}
+
+/* Chi-square that chance may reach. Things that move by themselves do not scatter like noise: some of them always lie
+ * where a small rotation would bring them, so it grows with the share of moving tracks that disagree: share <= 1. */
+static int32_t chance_q8(const roadpose_heading_t *instance) {
+    const int32_t moving = instance->flows_moving;
+    const int32_t disagreeing = moving - instance->round.agreeing;
+    return SIGNIFICANT_Q8 + ((moving == 0) ? 0 : OUTLIERS_Q8 * disagreeing / moving * disagreeing / moving);
+}
+
+/* A free fit begun in the turn that scores best. True if it costs less than the focus without a rotation, by more than
+ * three more unknowns and the choice among many explain. If it costs about as much, it is remembered as a rival. */
+static bool find_turn(roadpose_heading_t *instance, uint32_t *random, outcome_t *out) {
+    roadpose_fit_t turning = {.motion = {{0, 0}, {0, 0, 0}}, .noise_q22 = noise_q22(instance, START_TURNING_PERCENT)};
+    if (roadpose_focus_search_turning(instance, PAIRS_TURNING, random, &turning.motion) == 0 ||
+        !roadpose_fit_rounds(instance, &turning, ROADPOSE_UNKNOWNS_MOTION, COARSE_TURNING)) {
+        return false;
     }
-    const bool found = roadpose_fit_rounds(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS);
-    if (turning_score <= score || !roadpose_fit_rounds(instance, &turning, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS)) {
-        return found;
-    }
-    if (!found) {
+    const int32_t noise = smaller(turning.noise_q22, out->focus.noise_q22);
+    const int32_t cost = cost_at(instance, &turning, noise);
+    const int32_t straight = cost_at(instance, &out->focus, noise);
+    if (cost + SIGNIFICANT_Q8 + (out->chance_q8 - SIGNIFICANT_Q8) / 2 < straight) {
         out->motion = turning;
         return true;
     }
-    take_cheaper(instance, &out->motion, &turning);
-    return true;
-}
-
-/* A false focus in a turn is a loose crowd of about half of the tracks. Such a fit is checked by a longer search. */
-static bool is_doubtful(const roadpose_heading_t *instance, const outcome_t *out) {
-    return out->motion.noise_q22 > instance->lens.px_q22 * DOUBTFUL_NOISE_PERCENT / 100 &&
-           instance->round.agreeing * 100u < instance->flows_moving * DOUBTFUL_SHARE_PERCENT;
-}
-
-static void check_doubtful(roadpose_heading_t *instance, uint32_t *random, outcome_t *out) {
-    roadpose_fit_t turning = {.motion = {{0, 0}, {0, 0, 0}},
-                              .noise_q22 = roadpose_noise_max_q22(instance) * START_NOISE_PERCENT / 150};
-    if (roadpose_focus_search_turning(instance, HYPOTHESES_DOUBTFUL, random, &turning.motion) != 0 &&
-        roadpose_fit_rounds(instance, &turning, ROADPOSE_UNKNOWNS_MOTION, MOTION_ROUNDS)) {
-        take_cheaper(instance, &out->motion, &turning);
+    if (cost < straight + RIVAL_Q8) {
+        memcpy(out->rival_q24, turning.motion.turn_q24, sizeof out->rival_q24);
     }
+    return false;
 }
 
 /* Rotation found beyond the given one, in the order and scale of the unknowns: q28, clamped to 2^27. */
@@ -147,19 +149,11 @@ static void excess_turn(const outcome_t *out, int32_t *turn_q28) {
     }
 }
 
-/* Shrinks the found rotation by what chance explains of it (James and Stein's estimator, positive part), and lets the
- * focus follow; an insignificant rotation leaves the fit without one. */
-static void choose(const roadpose_factors_t *factors, int64_t chance_q8, outcome_t *out) {
+/* Takes left_q16 of the found rotation back, and lets the focus follow. */
+static void shrink(const roadpose_factors_t *factors, outcome_t *out) {
     int32_t turn_q28[3];
     int32_t focus_q28[2];
     excess_turn(out, turn_q28);
-    const int64_t significance = roadpose_turn_significance(factors, turn_q28, out->motion.noise_q22);
-    out->left_q16 = 65536;
-    out->chosen = out->focus;
-    if (significance <= chance_q8) {
-        return;
-    }
-    out->left_q16 = (int32_t)(INT64_C(65536) * chance_q8 / significance);
     for (unsigned i = 0; i < 3; i++) {
         turn_q28[i] = (int32_t)-roadpose_floor_shift((int64_t)turn_q28[i] * out->left_q16, 16);
     }
@@ -168,10 +162,10 @@ static void choose(const roadpose_factors_t *factors, int64_t chance_q8, outcome
     out->chosen.motion.turn_q24[0] += roadpose_floor_shift32(turn_q28[0], 4);
     out->chosen.motion.turn_q24[2] += roadpose_floor_shift32(turn_q28[1], 4);
     out->chosen.motion.turn_q24[1] += roadpose_floor_shift32(turn_q28[2], 4);
-    out->chosen.motion.focus_q24[0] = (int32_t)roadpose_clamp((int64_t)out->chosen.motion.focus_q24[0] + focus_q28[0],
-                                                              -(1 << 24), 1 << 24);
-    out->chosen.motion.focus_q24[1] = (int32_t)roadpose_clamp((int64_t)out->chosen.motion.focus_q24[1] + focus_q28[1],
-                                                              -(1 << 24), 1 << 24);
+    for (unsigned i = 0; i < 2; i++) {
+        out->chosen.motion.focus_q24[i] = (int32_t)roadpose_clamp((int64_t)out->chosen.motion.focus_q24[i] + focus_q28[i],
+                                                                  -(1 << 24), 1 << 24);
+    }
 }
 
 /* Direction of the image in which yaw moves the focus; a focus unknown is a sixteenth of the focus. */
@@ -183,52 +177,87 @@ static void yaw_direction(const int32_t *normal_q30, int32_t *c_q16) {
     c_q16[4] = 0;
 }
 
-/* Chi-square that chance may reach. Things that move by themselves do not scatter like noise: some of them always lie
- * where a small rotation would bring them, so it grows with the share of moving tracks that disagree: share <= 1. */
-static int64_t chance_q8(const roadpose_heading_t *instance) {
-    const int64_t moving = instance->flows_moving;
-    const int64_t disagreeing = moving - instance->round.agreeing;
-    return SIGNIFICANT_Q8 + ((moving == 0) ? 0 : OUTLIERS_Q8 * disagreeing * disagreeing / (moving * moving));
-}
-
-/* What the free fit leaves open, and the choice. */
+/* What a free fit leaves open, and how far its rotation is from the given one. */
 static void judge(const roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
-    const int32_t about_y_q16[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
+    static const int32_t ABOUT_Y_Q16[ROADPOSE_UNKNOWNS_MOTION] = {0, 0, 0, 0, 65536};
     const roadpose_factors_t *factors = &instance->round.factors;
-    out->motion.noise_q22 = instance->round.noise_q22;
-    const int32_t noise = out->motion.noise_q22;
-    choose(factors, chance_q8(instance), out);
+    const int32_t noise = instance->round.noise_q22;
+    int32_t turn_q28[3];
+    excess_turn(out, turn_q28);
+    out->significance_q8 = roadpose_turn_significance(factors, turn_q28, noise);
     out->free_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, along_q16, noise);
-    out->rate_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, about_y_q16, noise);
+    out->rate_deviation = roadpose_deviation(factors, ROADPOSE_UNKNOWNS_MOTION, ABOUT_Y_Q16, noise);
 }
 
-/* Fits, choice, and what they leave open. False: the tracks do not tell one focus. */
-static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
-    uint32_t random = instance->settings.seed;
-    int32_t along_q16[ROADPOSE_UNKNOWNS_MOTION];
-    roadpose_voters_choose(instance, out->focus.motion.turn_q24);
-    const uint32_t score = roadpose_focus_search(instance, HYPOTHESES, &random, &out->focus.motion);
-    out->focus.noise_q22 = roadpose_noise_max_q22(instance);
-    if (score == 0 || !roadpose_fit_rounds(instance, &out->focus, ROADPOSE_UNKNOWNS_FOCUS, FOCUS_ROUNDS) ||
-        !fit_free(instance, rate_known, score, &random, out)) {
-        return false;
-    }
-    if (!rate_known && is_doubtful(instance, out)) {
-        check_doubtful(instance, &random, out);
-    }
-    if (!roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
-        return false;
-    }
-    yaw_direction(normal_q30, along_q16);
-    judge(instance, along_q16, out);
-    const unsigned rounds = (out->left_q16 < 65536) ? LAST_ROUNDS_TURNED : LAST_ROUNDS;
-    if (!roadpose_fit_rounds(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, 0, rounds)) {
+/* The last round, of the chosen fit. */
+static bool conclude(roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
+    if (!roadpose_fit_round(instance, &out->chosen, ROADPOSE_UNKNOWNS_FOCUS, 1)) {
         return false;
     }
     out->agreeing = instance->round.agreeing;
     out->deviation = roadpose_deviation(&instance->round.factors, ROADPOSE_UNKNOWNS_FOCUS, along_q16,
                                         out->chosen.noise_q22);
     return true;
+}
+
+/* The focus without a rotation, and, from the same sums, what a rotation would change. */
+static bool fit_straight(roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
+    out->focus.noise_q22 = noise_q22(instance, START_FOCUS_PERCENT);
+    if (!roadpose_fit_rounds(instance, &out->focus, ROADPOSE_UNKNOWNS_FOCUS, COARSE_FOCUS)) {
+        return false;
+    }
+    out->motion = out->focus;
+    if (!roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
+        return false;
+    }
+    judge(instance, along_q16, out);
+    roadpose_fit_focus_alone(instance, &out->focus);
+    out->left_q16 = 65536;
+    out->chosen = out->focus;
+    if (!conclude(instance, along_q16, out)) {
+        return false;
+    }
+    out->chance_q8 = chance_q8(instance);
+    out->focus = out->chosen;
+    return true;
+}
+
+/* The free fit to its end. If its rotation is significant, it is chosen, the rotation shrunk by what chance explains of it
+ * (James and Stein's estimator, positive part). */
+static bool fit_turned(roadpose_heading_t *instance, const int32_t *along_q16, outcome_t *out) {
+    const int32_t noise = out->motion.noise_q22;
+    if (!roadpose_fit_round(instance, &out->motion, ROADPOSE_UNKNOWNS_MOTION, 1)) {
+        return false;
+    }
+    const int32_t cost = instance->round.cost_q8;
+    out->chance_q8 = chance_q8(instance);
+    judge(instance, along_q16, out);
+    if (out->significance_q8 <= out->chance_q8 ||
+        (!out->turned && cost_at(instance, &out->focus, noise) - cost <= SAVING_Q8)) {
+        return true;
+    }
+    out->left_q16 = (int32_t)(INT64_C(65536) * out->chance_q8 / out->significance_q8);
+    shrink(&instance->round.factors, out);
+    return conclude(instance, along_q16, out);
+}
+
+/* Fits, choice, and what they leave open. False: the tracks do not tell one focus. */
+static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
+    uint32_t random = instance->settings.seed;
+    int32_t along_q16[ROADPOSE_UNKNOWNS_MOTION];
+    yaw_direction(normal_q30, along_q16);
+    roadpose_voters_choose(instance, out->focus.motion.turn_q24);
+    if (roadpose_focus_search(instance, PAIRS, &random, &out->focus.motion) == 0 ||
+        !fit_straight(instance, along_q16, out)) {
+        return false;
+    }
+    const bool clear = out->significance_q8 <= out->chance_q8 &&
+                       out->agreeing * 100u >= instance->flows_moving * CLEAR_PERCENT;
+    out->turned = !rate_known && !clear && find_turn(instance, &random, out);
+    if (!out->turned && out->significance_q8 * LOOK_CLOSER <= out->chance_q8) {
+        return true;
+    }
+    return fit_turned(instance, along_q16, out);
 }
 
 /* Standard deviation of the yaw: of the chosen fit; where a rotation was seen, also what that rotation leaves open, and
@@ -268,16 +297,26 @@ static bool agree_enough(const roadpose_heading_t *instance, const roadpose_yaw_
            (uint32_t)yaw->tracks_agreeing * 1000u >= share * yaw->tracks_moving;
 }
 
+/* From tracks alone: they tell the yaw rate too badly, or a turn explains them about as well, or a turn was found but too
+ * few tracks agree with it. */
+static bool is_ambiguous(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
+                         const outcome_t *out, const roadpose_yaw_t *yaw) {
+    const roadpose_heading_settings_t *s = &instance->settings;
+    const int32_t rival = rate_urad_s(left_turn_q24(out->rival_q24, normal_q30), motion->interval_us);
+    return yaw->yaw_rate_sigma_urad_s > s->rate_sigma_max_urad_s || roadpose_abs(rival) > s->yaw_rate_max_urad_s ||
+           (out->turned && yaw->tracks_agreeing * 100u < yaw->tracks_moving * TURNED_PERCENT);
+}
+
 /* The gates that need the fits, in the order of the statuses. */
-static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const outcome_t *out,
-                        int32_t sigma, const roadpose_yaw_t *yaw) {
+static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
+                        const outcome_t *out, int32_t sigma, const roadpose_yaw_t *yaw) {
     const bool rate_known = motion->has_yaw_rate;
     const bool moves = motion->has_speed; /* fast enough, or this frame would not have come here */
     const roadpose_heading_settings_t *s = &instance->settings;
     const int64_t rate = roadpose_abs(yaw->yaw_rate_urad_s);
     const int64_t unsure = yaw->yaw_rate_sigma_urad_s;
     const bool unseen = !rate_known && unsure > s->rate_sigma_max_urad_s;
-    if (!unseen && rate + (rate_known ? -2 * unsure : unsure) > s->yaw_rate_max_urad_s) {
+    if (!unseen && rate + (rate_known ? -2 * unsure : SURE * unsure) > s->yaw_rate_max_urad_s) {
         return ROADPOSE_YAW_TURNING;
     }
     if (!agree_enough(instance, yaw)) {
@@ -289,14 +328,14 @@ static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motio
     if (yaw->noise_millipx > s->noise_max_millipx) {
         return ROADPOSE_YAW_NOISY;
     }
-    if (unseen) {
+    if (!rate_known && is_ambiguous(instance, motion, normal_q30, out, yaw)) {
         return ROADPOSE_YAW_AMBIGUOUS;
     }
     const bool open = !rate_known && urad_of_q22(out->free_deviation) > 2 * (int64_t)s->sigma_max_urad;
     return (open || sigma > s->sigma_max_urad) ? ROADPOSE_YAW_UNCERTAIN : ROADPOSE_YAW_OK;
 }
 
-static void fill_angles(const roadpose_heading_t *instance, const outcome_t *out, const int32_t *normal_q30,
+static void fill_angles(roadpose_heading_t *instance, const outcome_t *out, const int32_t *normal_q30,
                         int32_t sigma, roadpose_yaw_t *yaw) {
     const int32_t *focus = out->chosen.motion.focus_q24;
     const int32_t angle = roadpose_yaw_angle(focus, normal_q30);
@@ -304,6 +343,7 @@ static void fill_angles(const roadpose_heading_t *instance, const outcome_t *out
         yaw->status = ROADPOSE_YAW_OUTSIDE_LIMITS;
         return;
     }
+    instance->free_urad = roadpose_yaw_angle(out->motion.motion.focus_q24, normal_q30) - angle;
     yaw->yaw_urad = angle;
     yaw->sigma_urad = sigma;
     yaw->pitch_difference_urad = roadpose_descent(focus, normal_q30);
@@ -329,7 +369,7 @@ void roadpose_heading_estimate(roadpose_heading_t *instance, const roadpose_moti
     }
     report(instance, motion, normal, &out, yaw);
     const int32_t sigma = sigma_urad(&out, normal);
-    yaw->status = fit_gate(instance, motion, &out, sigma, yaw);
+    yaw->status = fit_gate(instance, motion, normal, &out, sigma, yaw);
     if (yaw->status == ROADPOSE_YAW_OK && normal_q30 == NULL) {
         yaw->status = ROADPOSE_YAW_NO_ROAD;
     }

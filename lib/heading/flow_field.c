@@ -2,50 +2,54 @@
 
 #include <string.h>
 
+/* What of 0...last lies within `reach` of the centre. 0 <= centre <= last < 2^19, reach < 2^21. */
+static void bounds(int32_t centre_q8, int32_t last_q8, int32_t reach_q8, int32_t *low_q8, int32_t *span_q8) {
+    const int32_t low = centre_q8 - reach_q8;
+    const int32_t high = centre_q8 + reach_q8;
+    *low_q8 = (low > 0) ? low : 0;
+    *span_q8 = ((high < last_q8) ? high : last_q8) - *low_q8;
+}
+
 void roadpose_lens_prepare(roadpose_lens_t *lens, const roadpose_rig_t *rig) {
     const int64_t focal = rig->focal_millipx;
+    const int32_t focal_q8 = (int32_t)(focal * 256 / 1000);
     /* 2^24 / 256 * 1000 = 65536000 < 2^26; in q20 < 2^46; >= 50 000 divides it to < 2^31 */
     lens->k_q20 = (int32_t)((INT64_C(65536000) << 20) / focal);
     lens->px_q22 = (int32_t)((INT64_C(1000) << 22) / focal); /* 1048...83886 */
     lens->cu_q8 = (int32_t)(((int64_t)rig->cu_millipx * 256 + 500) / 1000);
     lens->cv_q8 = (int32_t)(((int64_t)rig->cv_millipx * 256 + 500) / 1000);
-    lens->u_max_q8 = (rig->width_px - 1) * 256;
-    lens->v_max_q8 = (rig->height_px - 1) * 256;
+    bounds(lens->cu_q8, (rig->width_px - 1) * 256, focal_q8 * ROADPOSE_FLOW_REACH, &lens->u_low_q8, &lens->u_span_q8);
+    bounds(lens->cv_q8, (rig->height_px - 1) * 256, focal_q8 * ROADPOSE_FLOW_REACH, &lens->v_low_q8, &lens->v_span_q8);
+    lens->jump_q8 = focal_q8 / 2;
     lens->focal_millipx = rig->focal_millipx;
 }
 
-/* |offset| < 2^20 (2048 px in q8, and a principal point within), k < 2^31: below 2^51. */
-static int64_t angle_q24(const roadpose_lens_t *lens, int32_t offset_q8) {
-    return roadpose_floor_shift((int64_t)offset_q8 * lens->k_q20, 20);
+/* 0 <= x - low <= span, for any x: the difference wraps around to something larger than the span otherwise. */
+static bool within(int32_t x, int32_t low, int32_t span) {
+    return (uint32_t)x - (uint32_t)low <= (uint32_t)span;
 }
 
-static bool in_image(const roadpose_lens_t *lens, int32_t u_q8, int32_t v_q8) {
-    return u_q8 >= 0 && u_q8 <= lens->u_max_q8 && v_q8 >= 0 && v_q8 <= lens->v_max_q8;
+static bool is_usable(const roadpose_lens_t *lens, const roadpose_track_t *t) {
+    return within(t->u0_q8, lens->u_low_q8, lens->u_span_q8) && within(t->u1_q8, lens->u_low_q8, lens->u_span_q8) &&
+           within(t->v0_q8, lens->v_low_q8, lens->v_span_q8) && within(t->v1_q8, lens->v_low_q8, lens->v_span_q8) &&
+           within(t->u1_q8 - t->u0_q8, -lens->jump_q8, 2 * lens->jump_q8) &&
+           within(t->v1_q8 - t->v0_q8, -lens->jump_q8, 2 * lens->jump_q8);
 }
 
-static bool within(int64_t x, int64_t limit) {
-    return x >= -limit && x <= limit;
+/* |sum| < 2^21, |step| < 2^20, k < 2^31: products below 2^52. */
+static int32_t middle_q16(const roadpose_lens_t *lens, int32_t sum_q8) {
+    return (int32_t)roadpose_floor_shift((int64_t)sum_q8 * lens->k_q20, 29);
 }
 
-/* q24 ends to q16 middle and q22 step. */
-static bool flow_of_axis(int64_t x0, int64_t x1, int32_t *middle_q16, int32_t *step_q22) {
-    if (!within(x0, ROADPOSE_FLOW_REACH_Q24) || !within(x1, ROADPOSE_FLOW_REACH_Q24) ||
-        !within(x1 - x0, ROADPOSE_FLOW_LENGTH_Q24)) {
-        return false;
-    }
-    *middle_q16 = (int32_t)roadpose_floor_shift(x0 + x1, 9);
-    *step_q22 = (int32_t)roadpose_floor_shift(x1 - x0, 2);
-    return true;
+static int32_t step_q22(const roadpose_lens_t *lens, int32_t step_q8) {
+    return (int32_t)roadpose_floor_shift((int64_t)step_q8 * lens->k_q20, 22);
 }
 
-static bool flow_of_track(const roadpose_lens_t *lens, const roadpose_track_t *track, roadpose_flow_t *flow) {
-    if (!in_image(lens, track->u0_q8, track->v0_q8) || !in_image(lens, track->u1_q8, track->v1_q8)) {
-        return false;
-    }
-    return flow_of_axis(angle_q24(lens, track->u0_q8 - lens->cu_q8), angle_q24(lens, track->u1_q8 - lens->cu_q8),
-                        &flow->mx_q16, &flow->dx_q22) &&
-           flow_of_axis(angle_q24(lens, track->v0_q8 - lens->cv_q8), angle_q24(lens, track->v1_q8 - lens->cv_q8),
-                        &flow->my_q16, &flow->dy_q22);
+static void flow_of_track(const roadpose_lens_t *lens, const roadpose_track_t *t, roadpose_flow_t *flow) {
+    flow->mx_q16 = middle_q16(lens, t->u0_q8 + t->u1_q8 - 2 * lens->cu_q8);
+    flow->my_q16 = middle_q16(lens, t->v0_q8 + t->v1_q8 - 2 * lens->cv_q8);
+    flow->dx_q22 = step_q22(lens, t->u1_q8 - t->u0_q8);
+    flow->dy_q22 = step_q22(lens, t->v1_q8 - t->v0_q8);
 }
 
 /* Shortest length of a moving flow. */
@@ -56,9 +60,8 @@ static int32_t moving_min_q22(const roadpose_heading_t *instance) {
 
 static size_t usable_tracks(const roadpose_lens_t *lens, const roadpose_track_t *tracks, size_t count) {
     size_t usable = 0;
-    roadpose_flow_t flow;
     for (size_t i = 0; i < count; i++) {
-        usable += flow_of_track(lens, &tracks[i], &flow) ? 1u : 0u;
+        usable += is_usable(lens, &tracks[i]) ? 1u : 0u;
     }
     return usable;
 }
@@ -68,12 +71,14 @@ static uint32_t count_32(size_t count) {
 }
 
 /* Moving flows from the front, the others from the back of the `kept` places. */
-static void place(roadpose_heading_t *instance, const roadpose_flow_t *flow, size_t kept, int32_t moving_q22) {
-    if (roadpose_length(flow->dx_q22, flow->dy_q22) >= moving_q22) {
-        instance->flow[instance->flows_moving] = *flow;
+static void place(roadpose_heading_t *instance, const roadpose_track_t *track, size_t kept, int32_t moving_q22) {
+    roadpose_flow_t flow;
+    flow_of_track(&instance->lens, track, &flow);
+    if (roadpose_length(flow.dx_q22, flow.dy_q22) >= moving_q22) {
+        instance->flow[instance->flows_moving] = flow;
         instance->flows_moving++;
     } else {
-        instance->flow[kept - 1u - (size_t)(instance->flows - instance->flows_moving)] = *flow;
+        instance->flow[kept - 1u - (size_t)(instance->flows - instance->flows_moving)] = flow;
     }
     instance->flows++;
 }
@@ -83,15 +88,14 @@ static void keep_evenly(roadpose_heading_t *instance, const roadpose_track_t *tr
                         size_t kept) {
     const int32_t moving_q22 = moving_min_q22(instance);
     size_t error = 0;
-    roadpose_flow_t flow;
     for (size_t i = 0; i < count && instance->flows < kept; i++) {
-        if (!flow_of_track(&instance->lens, &tracks[i], &flow)) {
+        if (!is_usable(&instance->lens, &tracks[i])) {
             continue;
         }
         error += kept;
         if (error >= usable) {
             error -= usable;
-            place(instance, &flow, kept, moving_q22);
+            place(instance, &tracks[i], kept, moving_q22);
         }
     }
 }

@@ -6,8 +6,7 @@
 #include "roadpose/heading.h"
 
 /* Bounds of every flow that is kept: |m| <= 2 (q16: 2^17), |d| <= 1/2 in each component (q22: 2^21). */
-#define ROADPOSE_FLOW_REACH_Q24 (INT32_C(2) << 24)
-#define ROADPOSE_FLOW_LENGTH_Q24 (INT32_C(1) << 23)
+#define ROADPOSE_FLOW_REACH 2
 
 /* Prepares the lens. Focal length 50...4000 px: k = 65536000 / f_millipx in q20, 2^24...2^30.4. */
 void roadpose_lens_prepare(roadpose_lens_t *lens, const roadpose_rig_t *rig);
@@ -22,7 +21,7 @@ static inline int32_t roadpose_length(int32_t x, int32_t y) {
     const int32_t ay = (y < 0) ? -y : y;
     const int32_t a = (ax > ay) ? ax : ay;
     const int32_t b = (ax > ay) ? ay : ax;
-    const int32_t c = a - a / 8 + b / 2;
+    const int32_t c = a - (a >> 3) + (b >> 1);
     return (c > a) ? c : a;
 }
 
@@ -32,17 +31,30 @@ static inline int32_t roadpose_longer_side(int32_t x, int32_t y) {
     return (ax > ay) ? ax : ay;
 }
 
-/* What a rotation by turn (x, y, z camera axes, q24 rad, |turn| <= 1/2) adds to the flow at (x, y), |x|, |y| <= 2:
+/* Products of a place (x, y), |x|, |y| <= 2, that the flow of a rotation (x, y, z camera axes) is made of:
  *   du = xy wx - (1 + x^2) wy + y wz      dv = (1 + y^2) wx - xy wy - x wz
- * Products: |1 + x^2| <= 5 (q16 < 2^18.4) times 2^23: below 2^42 each; q40 to q22. */
-static inline void roadpose_turn_flow(int32_t x_q16, int32_t y_q16, const int32_t *turn_q24, int32_t *flow_q22) {
-    const int64_t x = x_q16;
-    const int64_t y = y_q16;
-    const int64_t xy = x * y / 65536;
-    const int64_t xx = 65536 + ((x * x) >> 16);
-    const int64_t yy = 65536 + ((y * y) >> 16);
-    flow_q22[0] = (int32_t)((xy * turn_q24[0] - xx * turn_q24[1] + y * turn_q24[2]) / 262144);
-    flow_q22[1] = (int32_t)((yy * turn_q24[0] - xy * turn_q24[1] - x * turn_q24[2]) / 262144);
+ * q26: |1 + x^2| <= 5, below 2^28.4. */
+typedef struct {
+    int32_t xy_q26;
+    int32_t xx_q26; /* 1 + x^2 */
+    int32_t yy_q26;
+    int32_t x_q26;
+    int32_t y_q26;
+} roadpose_turn_terms_t;
+
+static inline roadpose_turn_terms_t roadpose_turn_terms(int32_t x_q16, int32_t y_q16) {
+    const int32_t x_q13 = roadpose_floor_shift32(x_q16, 3);
+    const int32_t y_q13 = roadpose_floor_shift32(y_q16, 3);
+    return (roadpose_turn_terms_t){x_q13 * y_q13, (INT32_C(1) << 26) + x_q13 * x_q13, (INT32_C(1) << 26) + y_q13 * y_q13,
+                                   x_q16 * 1024, y_q16 * 1024};
+}
+
+/* The flow of a rotation, turn in q28 rad, |turn| <= 1/2: three products below 2^55.4 each; q54 to q22. */
+static inline void roadpose_turn_flow(const roadpose_turn_terms_t *t, const int32_t *turn_q28, int32_t *flow_q22) {
+    flow_q22[0] = (int32_t)roadpose_floor_shift((int64_t)t->xy_q26 * turn_q28[0] - (int64_t)t->xx_q26 * turn_q28[1] +
+                                                    (int64_t)t->y_q26 * turn_q28[2], 32);
+    flow_q22[1] = (int32_t)roadpose_floor_shift((int64_t)t->yy_q26 * turn_q28[0] - (int64_t)t->xy_q26 * turn_q28[1] -
+                                                    (int64_t)t->x_q26 * turn_q28[2], 32);
 }
 
 #endif

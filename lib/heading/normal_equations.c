@@ -12,7 +12,7 @@ static unsigned shift_of(const roadpose_sums_t *sums, unsigned unknowns) {
     int64_t largest = 0;
     for (unsigned i = 0; i < unknowns; i++) {
         const int64_t g = roadpose_abs(sums->g[i]);
-        largest = (sums->h[i][i] > largest) ? sums->h[i][i] : largest;
+        largest = (sums->h[roadpose_entry(i, i)] > largest) ? sums->h[roadpose_entry(i, i)] : largest;
         largest = (g > largest) ? g : largest;
     }
     const unsigned shift = roadpose_excess_bits(largest, KEPT_BITS);
@@ -46,13 +46,13 @@ bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose
     factors->half_shift = shift / 2;
     for (unsigned i = 0; i < unknowns; i++) {
         for (unsigned k = 0; k <= i; k++) {
-            factors->l[i][k] = roadpose_floor_shift(sums->h[i][k], shift);
+            factors->l[i][k] = roadpose_floor_shift(sums->h[roadpose_entry(i, k)], shift);
         }
         factors->z[i] = roadpose_floor_shift(sums->g[i], shift);
     }
     bool told = true;
     for (unsigned column = 0; told && column < unknowns; column++) {
-        told = eliminate(factors, column, roadpose_floor_shift(sums->h[column][column], shift + PIVOT_SHARE));
+        told = eliminate(factors, column, roadpose_floor_shift(sums->h[roadpose_entry(column, column)], shift + PIVOT_SHARE));
     }
     return told;
 }

@@ -6,6 +6,9 @@
 
 #define SPREAD_MIN_URAD 175   /* 0.01 degrees: identical values must not make the spread 0 */
 #define COMMON_ERROR_URAD 873 /* 0.05 degrees: what two frames share, so that no single frame rules */
+#define FREE_LIMIT_URAD 17453 /* 1 degree: a free fit far off must not rule */
+#define DRIFT_FRAMES 8        /* fewer tell no drift */
+#define DRIFT_CHANCE 9        /* squared deviations of the mean that are taken for chance */
 #define CUT_QUARTERS 16       /* Tukey's biweight ends at four spreads */
 
 void roadpose_running_clear(roadpose_heading_t *instance) {
@@ -55,6 +58,26 @@ static int64_t weight_of(const roadpose_heading_t *instance, unsigned i, int32_t
     return ((rest_q12 * rest_q12) >> 12) * (INT64_C(1) << 34) / variance;
 }
 
+/* A rotation that is small in each frame but the same in all stays below what a frame can tell, and biases its yaw. The
+ * frames together tell it: the mean of what a free rotation would change, less what chance explains of it (James and
+ * Stein's estimator, positive part). |free| < 2^15: 256 squares below 2^38, the mean's
+ * square below 2^30, times DRIFT_CHANCE or the mean below 2^45. */
+static int32_t drift_urad(const roadpose_heading_t *instance) {
+    const int64_t count = instance->running.count;
+    int64_t sum = 0;
+    int64_t squares = 0;
+    for (unsigned i = 0; i < instance->running.count; i++) {
+        const int64_t free_urad = instance->history_free_urad[i];
+        sum += free_urad;
+        squares += free_urad * free_urad;
+    }
+    const int64_t mean = sum / count;
+    const int64_t variance = squares / count - mean * mean; /* of one frame */
+    const int64_t chance = variance * DRIFT_CHANCE / count;
+    const int64_t square = mean * mean;
+    return (count < DRIFT_FRAMES || square <= chance) ? 0 : (int32_t)(mean - mean * chance / square);
+}
+
 /* Sum of 256 weights of 2^27 times offsets of 2^23: below 2^58. */
 static void estimate(roadpose_heading_t *instance) {
     roadpose_running_yaw_t *running = &instance->running;
@@ -69,7 +92,7 @@ static void estimate(roadpose_heading_t *instance) {
         weights += weight;
         offsets += weight * ((int64_t)instance->history_urad[i] - middle);
     }
-    running->yaw_urad = (weights == 0) ? middle : (int32_t)(middle + offsets / weights);
+    running->yaw_urad = drift_urad(instance) + ((weights == 0) ? middle : (int32_t)(middle + offsets / weights));
 }
 
 void roadpose_running_add(roadpose_heading_t *instance, const roadpose_yaw_t *yaw) {
@@ -80,6 +103,8 @@ void roadpose_running_add(roadpose_heading_t *instance, const roadpose_yaw_t *ya
     }
     instance->history_urad[instance->history_next] = yaw->yaw_urad;
     instance->history_sigma_urad[instance->history_next] = yaw->sigma_urad;
+    instance->history_free_urad[instance->history_next] =
+        (int32_t)roadpose_clamp(instance->free_urad, -FREE_LIMIT_URAD, FREE_LIMIT_URAD);
     instance->history_next = (uint16_t)((instance->history_next + 1u) % ROADPOSE_YAW_HISTORY);
     if (running->count < ROADPOSE_YAW_HISTORY) {
         running->count++;

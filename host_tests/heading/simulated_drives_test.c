@@ -221,6 +221,42 @@ static void test_second_opinion_on_pitch(void) {
     TEST_ASSERT_TRUE(fabs(sum - 0.4) <= 0.02);
 }
 
+/* A street with a wall on one side: of the tracks on the other side three in four are missing. */
+static void drop_left_tracks(void) {
+    int kept = 0;
+    for (int i = 0; i < tracks.count; i++)
+        if (tracks.track[i].u0 > 0 || i % 4 == 0) tracks.track[kept++] = tracks.track[i];
+    tracks.count = kept;
+}
+
+static double lopsided_frame_error(const simulated_mount_t *mount, double noise_px, int *accepted) {
+    const double turn = radians_of(random_double(&numbers, -0.15, 0.15));
+    const simulated_step_t step = {1.2, turn, noise_px, 0, 400};
+    const roadpose_motion_t motion = {.interval_us = 100000};
+    roadpose_track_t library[SIMULATION_TRACKS_MAX];
+    roadpose_yaw_t yaw;
+    int32_t normal[3];
+    simulate_tracks(&tracks, &SIMULATED_RIG, mount, &step, &numbers);
+    drop_left_tracks();
+    library_tracks(&tracks, &SIMULATED_RIG, library);
+    mount_normal_q30(mount, normal);
+    roadpose_heading_process(&heading, library, (size_t)tracks.count, &motion, normal, &yaw);
+    *accepted += yaw.status == ROADPOSE_YAW_OK;
+    return (yaw.status == ROADPOSE_YAW_OK) ? degrees_of(1e-6 * yaw.yaw_urad - mount->yaw) : 0;
+}
+
+/* The mean error keeps its sign: the noise must not draw the focus to the side where the tracks are. */
+static void test_lopsided_tracks(void) {
+    const simulated_mount_t mount = {radians_of(1), 0, 0, 1.5};
+    double sum = 0;
+    int accepted = 0;
+    start_drive();
+    for (int i = 0; i < 2000; i++) sum += lopsided_frame_error(&mount, 0.4, &accepted);
+    printf("\ntracks on one side, 0.4 px: mean error with its sign %.3f (%d of 2000 accepted)\n", sum / accepted, accepted);
+    TEST_ASSERT_GREATER_THAN(1000, accepted);
+    TEST_ASSERT_TRUE_MESSAGE(fabs(sum / accepted) <= 0.05, "focus drawn to one side by over 0.05 degrees");
+}
+
 int main(void) {
     numbers = random_numbers("simulated drives");
     UNITY_BEGIN();
@@ -230,5 +266,6 @@ int main(void) {
     RUN_TEST(test_no_yaw_when_standing);
     RUN_TEST(test_vehicle_gates);
     RUN_TEST(test_second_opinion_on_pitch);
+    RUN_TEST(test_lopsided_tracks);
     return UNITY_END();
 }

@@ -202,7 +202,7 @@ typedef struct {
     roadpose_round_t round;
     int32_t history_urad[ROADPOSE_YAW_HISTORY];
     int32_t history_sigma_urad[ROADPOSE_YAW_HISTORY];
-    int32_t history_free_urad[ROADPOSE_YAW_HISTORY];
+    int16_t history_free_urad[ROADPOSE_YAW_HISTORY];
     int32_t sorted_urad[ROADPOSE_YAW_HISTORY];
     int32_t free_urad; /* what a free rotation would add to this frame's yaw */
     uint16_t history_next;

@@ -104,7 +104,7 @@ void roadpose_running_add(roadpose_heading_t *instance, const roadpose_yaw_t *ya
     instance->history_urad[instance->history_next] = yaw->yaw_urad;
     instance->history_sigma_urad[instance->history_next] = yaw->sigma_urad;
     instance->history_free_urad[instance->history_next] =
-        (int32_t)roadpose_clamp(instance->free_urad, -FREE_LIMIT_URAD, FREE_LIMIT_URAD);
+        (int16_t)roadpose_clamp(instance->free_urad, -FREE_LIMIT_URAD, FREE_LIMIT_URAD);
     instance->history_next = (uint16_t)((instance->history_next + 1u) % ROADPOSE_YAW_HISTORY);
     if (running->count < ROADPOSE_YAW_HISTORY) {
         running->count++;

@@ -108,7 +108,7 @@ static void test_few_move(void) {
 
 /* 640 x 480, f = 500: one track for each reason to drop it, beside one that is used. */
 static void test_dropped_tracks(void) {
-    static const roadpose_track_t odd[] = {{100, 100, 100, 479 * 256 + 1}, {100, 100, 639 * 256 + 1, 100},
+    static const roadpose_track_t odd[] = {{100, 120000, 100, 479 * 256 + 1}, {160000, 100, 639 * 256 + 1, 100},
                                            {100, 479 * 256 + 1, 100, 100}, {-1, 100, 100, 100},
                                            {0, 100, 251 * 256, 100},       {100, 0, 100, 251 * 256},
                                            {251 * 256, 100, 0, 100},       {100, 251 * 256, 100, 0}};

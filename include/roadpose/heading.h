@@ -69,7 +69,7 @@ typedef struct {
     int32_t sigma_max_urad;        /* largest standard deviation of a frame's yaw, 100...100 000. Default 4363 (0.25 deg).
                                       Where the vehicle gives no yaw rate, twice as much is allowed to the yaw that the
                                       tracks tell without assuming straight travel */
-    int32_t yaw_max_urad;          /* mounting limit to either side, 0...400 000. Default 174 533 (10 deg) */
+    int32_t yaw_max_urad;          /* mounting limit to either side, 0...400 000. Default 104 720 (6 deg) */
 } roadpose_heading_settings_t;
 
 /* May I trust this frame's yaw, and if not, why was it refused? The first reason that applies: what the vehicle says,
@@ -84,8 +84,8 @@ typedef enum {
     ROADPOSE_YAW_NO_FOCUS = 5,       /* no single focus explains the tracks: too few agree with the best one */
     ROADPOSE_YAW_NOISY = 6,          /* they agree, but within more than noise_max_millipx */
     ROADPOSE_YAW_AMBIGUOUS = 7,      /* these tracks cannot tell a turn from straight travel, and nothing else does: the yaw
-                                        rate is too uncertain, a turn explains them about as well, or they show one that
-                                        too few of them share */
+                                        rate is too uncertain, a turn explains them about as well, they show one that too few
+                                        of them share, or they scatter by more than 90 % of noise_max_millipx */
     ROADPOSE_YAW_UNCERTAIN = 8,      /* the standard deviation exceeds sigma_max_urad */
     ROADPOSE_YAW_NO_ROAD = 9,        /* no road normal was given: a focus, but no yaw */
     ROADPOSE_YAW_OUTSIDE_LIMITS = 10 /* yaw exceeds yaw_max_urad */

@@ -21,18 +21,20 @@
 #define RIVAL_Q8 5120             /* a turn that costs no more than this more is not excluded */
 #define CLEAR_PERCENT 75u         /* of the moving tracks agree: no crowd of other things is as large */
 #define TURNED_PERCENT 60u        /* of them must agree with a motion that was found by the search for a turn */
+#define UNTOLD_NOISE_PERCENT 90   /* of the largest noise: a false focus in a turn is a loose crowd */
 #define SURE 3                    /* deviations by which a turn must be excluded where the vehicle tells no yaw rate */
 #define TURN_MAX_Q24 838861       /* 1/20 rad between two frames */
 #define MICRO INT64_C(1000000)
 
-/* What the fits say; deviations in q22. */
+/* What is asked, and what the fits say; deviations in q22. */
 typedef struct {
+    const int32_t *normal_q30; /* of the road */
+    int64_t turn_max_q24;    /* between the two frames, that still gives a yaw */
     roadpose_fit_t focus;    /* rotation as given by the vehicle, or none */
     roadpose_fit_t motion;   /* with a rotation */
     roadpose_fit_t chosen;
     int64_t significance_q8; /* of the rotation: chi-square */
     int32_t chance_q8;       /* what chance may reach of it */
-    int32_t focus_cost_q8;
     int32_t rate_deviation;  /* of the fitted rotation about the vertical, a frame */
     int32_t free_deviation;  /* of the focus along the road, with a rotation */
     int32_t deviation;       /* of the chosen focus along the road */
@@ -212,14 +214,17 @@ static bool fit_straight(roadpose_heading_t *instance, const int32_t *along_q16,
     }
     judge(instance, along_q16, out);
     roadpose_fit_focus_alone(instance, &out->focus);
+    out->chance_q8 = chance_q8(instance);
+    out->agreeing = instance->round.agreeing;
     out->left_q16 = 65536;
     out->chosen = out->focus;
-    if (!conclude(instance, along_q16, out)) {
-        return false;
-    }
-    out->chance_q8 = chance_q8(instance);
-    out->focus = out->chosen;
     return true;
+}
+
+/* A turn that no deviation brings back below the limit: there will be no yaw, and so no need of a last round. */
+static bool is_sharp(const outcome_t *out) {
+    const int64_t sure_q24 = SURE * 4 * (int64_t)out->rate_deviation;
+    return roadpose_abs(left_turn_q24(out->motion.motion.turn_q24, out->normal_q30)) - sure_q24 > out->turn_max_q24;
 }
 
 /* The free fit to its end. If its rotation is significant, it is chosen, the rotation shrunk by what chance explains of it
@@ -232,9 +237,14 @@ static bool fit_turned(roadpose_heading_t *instance, const int32_t *along_q16, o
     const int32_t cost = instance->round.cost_q8;
     out->chance_q8 = chance_q8(instance);
     judge(instance, along_q16, out);
+    if (is_sharp(out)) {
+        out->chosen = out->motion;
+        out->agreeing = instance->round.agreeing;
+        return true;
+    }
     if (out->significance_q8 <= out->chance_q8 ||
         (!out->turned && cost_at(instance, &out->focus, noise) - cost <= SAVING_Q8)) {
-        return true;
+        return conclude(instance, along_q16, out);
     }
     out->left_q16 = (int32_t)(INT64_C(65536) * out->chance_q8 / out->significance_q8);
     shrink(&instance->round.factors, out);
@@ -255,7 +265,7 @@ static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *
                        out->agreeing * 100u >= instance->flows_moving * CLEAR_PERCENT;
     out->turned = !rate_known && !clear && find_turn(instance, &random, out);
     if (!out->turned && out->significance_q8 * LOOK_CLOSER <= out->chance_q8) {
-        return true;
+        return conclude(instance, along_q16, out);
     }
     return fit_turned(instance, along_q16, out);
 }
@@ -298,13 +308,14 @@ static bool agree_enough(const roadpose_heading_t *instance, const roadpose_yaw_
 }
 
 /* From tracks alone: they tell the yaw rate too badly, or a turn explains them about as well, or a turn was found but too
- * few tracks agree with it. */
+ * few tracks agree with it, or they are loose enough to be a false focus. */
 static bool is_ambiguous(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
                          const outcome_t *out, const roadpose_yaw_t *yaw) {
     const roadpose_heading_settings_t *s = &instance->settings;
     const int32_t rival = rate_urad_s(left_turn_q24(out->rival_q24, normal_q30), motion->interval_us);
     return yaw->yaw_rate_sigma_urad_s > s->rate_sigma_max_urad_s || roadpose_abs(rival) > s->yaw_rate_max_urad_s ||
-           (out->turned && yaw->tracks_agreeing * 100u < yaw->tracks_moving * TURNED_PERCENT);
+           (out->turned && yaw->tracks_agreeing * 100u < yaw->tracks_moving * TURNED_PERCENT) ||
+           yaw->noise_millipx * 100 > s->noise_max_millipx * UNTOLD_NOISE_PERCENT;
 }
 
 /* The gates that need the fits, in the order of the statuses. */
@@ -354,7 +365,8 @@ void roadpose_heading_estimate(roadpose_heading_t *instance, const roadpose_moti
                                roadpose_yaw_t *yaw) {
     static const int32_t DOWN_Q30[3] = {0, INT32_C(1) << 30, 0};
     const int32_t *normal = (normal_q30 != NULL) ? normal_q30 : DOWN_Q30;
-    outcome_t out = {.left_q16 = 0};
+    const int64_t turn_max_urad = (int64_t)instance->settings.yaw_rate_max_urad_s * motion->interval_us / MICRO;
+    outcome_t out = {.normal_q30 = normal, .turn_max_q24 = q24_of_urad(turn_max_urad)};
     yaw->status = vehicle_gate(instance, motion);
     if (yaw->status == ROADPOSE_YAW_OK) {
         yaw->status = track_gate(instance, yaw);

@@ -25,7 +25,7 @@ void roadpose_heading_settings_default(roadpose_heading_settings_t *settings) {
         .yaw_rate_max_urad_s = 61087,
         .rate_sigma_max_urad_s = 13090,
         .sigma_max_urad = 4363,
-        .yaw_max_urad = 174533,
+        .yaw_max_urad = 104720,
     };
 }
 

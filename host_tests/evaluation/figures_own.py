@@ -4,9 +4,9 @@ import csv
 import matplotlib.pyplot as plt
 import numpy as np
 
-from results import OURS, errors, mean_absolute, time_ratio, worst
+from results import GROUPS, OURS, errors, group_of, is_peer, mean_absolute, time_ratio, worst
 from studio import horizon_row
-from tables import SWEEP, cell, is_peer
+from tables import SWEEP, cell
 
 AXES = (("pitch error, degrees", 0, 0.15), ("roll error, degrees", 1, 0.1), ("height error, mm", 2, 8))
 

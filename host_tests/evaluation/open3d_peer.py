@@ -4,7 +4,7 @@
 
 Open3D gets the points in metres. Variants: all points, or those within 3 m sideways and 25 m ahead (with --cropped only
 these); every pixel or one in 2 x 4. A plane outside the mounting limits is put aside and the next one is tried, up to
-five. Only segment_plane is timed, on one core; making the points is not. The whole map takes seconds a frame, so it is
+five. Only segment_plane is timed, on one core, in processor time; making the points is not. The whole map takes seconds a frame, so it is
 only tried on the first recording."""
 import csv
 import os
@@ -28,7 +28,7 @@ VARIANTS = [(False, False), (False, True)] + CROPPED
 
 
 def name_of(cropped, sparse):
-    return "Open3D: " + ("cropped" if cropped else "whole map") + (", 2 x 4 grid" if sparse else ", every pixel")
+    return "Open3D: " + ("2 x 4 grid" if sparse else "every pixel") + (", cropped" if cropped else ", whole map")
 
 
 def points_of(recording, frame, cropped, sparse):
@@ -74,9 +74,9 @@ def road_of(cloud):
 def timed(points):
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
     open3d.utility.random.seed(1)
-    start = time.perf_counter()
+    start = time.process_time()
     pose = road_of(cloud)
-    return pose, 1e6 * (time.perf_counter() - start)
+    return pose, 1e6 * (time.process_time() - start)
 
 
 def rows_of(recording, frame, variants):

@@ -4,8 +4,8 @@
 
 Open3D gets the points in metres. Variants: all points, or those within 3 m sideways and 25 m ahead (with --cropped only
 these); every pixel or one in 2 x 4. A plane outside the mounting limits is put aside and the next one is tried, up to
-five. Only segment_plane is timed, on one core, in processor time; making the points is not. The whole map takes seconds a frame, so it is
-only tried on the first recording."""
+five. Only segment_plane is timed, on one core, in processor time; making the points is not. The whole map takes seconds a frame,
+so it is only tried on the first recording."""
 import csv
 import os
 import sys

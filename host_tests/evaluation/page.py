@@ -85,7 +85,7 @@ def peers(page, studio, results, _):
     page.figure(figures_own.peers(studio, results), texts.PEER_FIGURE)
     page.text("The drive on the level street, where roll is 0 and the Hough line is at home:")
     tables.peers(page, results, "level")
-    page.text("All sets; *largest* is the largest pitch error of a frame that got a pose:")
+    page.text(texts.ELSEWHERE)
     tables.peers_elsewhere(page, results, [name for name in PEERS_ELSEWHERE if name in results.candidates()])
     page.text(texts.FALSE_ROADS)
     tables.false_roads(page, results)
@@ -115,7 +115,8 @@ def main():
     results = Results(read([options.work / name for name in ("results.csv", "results-large.csv", "open3d.csv")]),
                       read_counts(options.work / "instructions.csv"))
     share = verdict.Share(options.work / "share.csv")
-    place = {"share": share, "recordings": recordings_in(options.full), "fixtures": options.fixtures, "work": options.work, "out": options.out}
+    place = {"share": share, "recordings": recordings_in(options.full), "fixtures": options.fixtures, "work": options.work,
+             "out": options.out}
     page = Page("Evaluation: the paper's tables and figures, and the peers")
     page.text(texts.INTRODUCTION)
     page.code(texts.COMMAND)

@@ -87,6 +87,14 @@ def mean_absolute(rows, axis):
     return float(np.mean(np.abs(values))) if len(values) else None
 
 
+def lead(results, recording, peer, axis):
+    """How much further off the peer is than ours, mean over the frames that both have, and the standard error of that mean."""
+    ours = {row.frame: abs(errors([row], axis)) for row in results.of(recording, OURS)}
+    theirs = {row.frame: abs(errors([row], axis)) for row in results.of(recording, peer)}
+    found = np.array([(theirs[frame] - ours[frame])[0] for frame in ours if len(ours[frame]) and len(theirs.get(frame, []))])
+    return float(np.mean(found)), float(np.std(found, ddof=1) / np.sqrt(len(found)))
+
+
 def score(rows):
     accepted = sum(row.status == "ok" for row in rows)
     return Score(len(rows), accepted, *(mean_absolute(rows, axis) for axis in range(3)))

@@ -119,6 +119,17 @@ def false_roads(page, results):
     page.table(["", "frames without a road that got a pose", "of"], grouped(results, "no-road", row_of, 2))
 
 
+ORACLE = "oracle: true road in the corridor"
+
+
+def apart(results, recording):
+    """Mean absolute difference between our poses and the oracle's."""
+    theirs = {row.frame: row.pose for row in results.of(recording, ORACLE)}
+    pairs = [(row.pose, theirs[row.frame]) for row in results.of(recording, OURS) if row.status == "ok"]
+    differences = np.abs(np.array([np.subtract(*pair) for pair in pairs if None not in pair[1]]))
+    return [cell(float(value), digits) for value, digits in zip(differences.mean(axis=0) * (1, 1, 1000), (4, 4, 2))]
+
+
 def against_oracle(page, results):
     rows = []
     for recording in results.recordings():
@@ -126,11 +137,11 @@ def against_oracle(page, results):
             continue
         accepted = {row.frame for row in results.of(recording, OURS) if row.status == "ok"}
         line = [f"`{recording}`"]
-        for name in (OURS, "oracle: true road in the corridor", "oracle: true road"):
+        for name in (OURS, ORACLE, "oracle: true road"):
             line += triple(score([row for row in results.of(recording, name) if row.frame in accepted]))
-        rows.append(line)
+        rows.append(line + apart(results, recording))
     page.table(["recording", "ours: pitch °", "roll °", "height mm", "oracle in the corridor: pitch °", "roll °", "height mm",
-                "oracle, all road: pitch °", "roll °", "height mm"], rows)
+                "oracle, all road: pitch °", "roll °", "height mm", "apart: pitch °", "roll °", "height mm"], rows)
 
 
 STATUSES = ["ok", "no_disparity", "no_road", "little_support", "short_range", "poor_fit", "outside_limits"]

@@ -19,9 +19,9 @@ def yes(reached):
 
 
 def table_2_factor(results):
-    mine, paper = score(results.of(SWEEP, OURS)), PAPER_TABLE_2["Method 2"]
-    smallest = min(paper[0] / mine.roll, paper[1] / mine.pitch, paper[2] / mine.height)
-    return ["Table 2: each of the paper's figures beaten by at least 4 times", f"smallest factor {smallest:.1f}",
+    mine = score(results.of(SWEEP, OURS))
+    smallest = min(min(paper[0] / mine.roll, paper[1] / mine.pitch, paper[2] / mine.height) for paper in PAPER_TABLE_2.values())
+    return ["Table 2: each of the paper's figures, its virtual maps' too, beaten by at least 4 times", f"smallest factor {smallest:.1f}",
             yes(smallest >= 4)]
 
 

@@ -92,19 +92,15 @@ def peers(page, results, recording):
 
 
 def peers_elsewhere(page, results, names):
-    sets = [name for name in results.recordings() if name != "no-road"]
     rows = []
-    for recording in sets:
-        row = [f"`{recording}`"]
-        for name in names:
-            mine = score(results.of(recording, name))
-            row += [f"{cell(mine.pitch, 3)} / {cell(mine.roll, 3)} / {cell(mine.height, 1)}",
-                    largest(results.of(recording, name))]
-        rows.append(row)
-    header = ["recording"]
-    for name in names:
-        header += [f"{name}: pitch ° / roll ° / height mm", "largest pitch °"]
-    page.table(header, rows)
+    for recording in results.recordings():
+        shown = [name for name in names if results.of(recording, name)] if recording != "no-road" else []
+        for name in shown:
+            found = results.of(recording, name)
+            mine = score(found)
+            rows.append([f"`{recording}`" if name == shown[0] else "", name, cell(mine.pitch, 3), largest(found), cell(mine.roll, 3),
+                         cell(mine.height, 1), f"{mine.accepted} of {mine.frames}"])
+    page.table(["recording", "estimator", "pitch °", "largest", "roll °", "height mm", "accepted"], rows)
 
 
 def largest(rows):

@@ -104,8 +104,8 @@ PEER_FIGURE = """Accuracy and time on the roll sweep, both logarithmic. Down and
 red: Open3D. Filled: as one would use them; hollow: helped by us."""
 FALSE_ROADS = "Frames without any road: walls, fences, the back of a lorry, a ceiling, fog, noise, nothing."
 
-ELSEWHERE = """All sets; *largest* is the largest pitch error of a frame that got a pose. On `speed-bump` the peers answer in the frames that
-we refuse, too."""
+ELSEWHERE = """All sets; *largest* is the largest pitch error of a frame that got a pose. On `speed-bump` the errors of the peers hold frames
+that we refuse."""
 ORACLE = """The oracle is a double-precision least-squares plane on the *true* road pixels of the same disparities, fitted again twice
 without what is further than 0.6 px off: what a perfect choice of pixels reaches. Its own error is the matcher's. On the frames that we accepted. *Apart* is the mean absolute difference
 between our pose and the oracle's in the corridor. On `dirt` it trips over the salt, on `crown` *all road* is no plane."""

@@ -26,7 +26,7 @@ def table_2_factor(results):
 
 
 def table_1_line(title, pitch, roll):
-    return [f"Table 1: below 0.05° pitch and roll down to 1 % of the points, {title}", f"{pitch:.3f}° pitch, {roll:.3f}° roll",
+    return [f"Table 1: below 0.05° pitch and roll down to 1 % of the points, {title}", f"at most {pitch:.3f}° pitch, {roll:.3f}° roll",
             yes(pitch < 0.05 and roll < 0.05)]
 
 

@@ -1,7 +1,8 @@
 // roadpose-count RECORDING FRAME... : our library, the peers and the pass that a v-disparity begins with, once each on these
 // frames, with callgrind counting the instructions of each. Counts do not depend on who else uses the machine. Run it as
 //   valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=OUT roadpose-count RECORDING FRAME...
-// Callgrind writes OUT.1, OUT.2 and so on, one for each, in the order of the lines "recording,frame,candidate" on standard output.
+// Callgrind writes OUT.1, OUT.2 and so on, one for each, in the order of the lines "recording,frame,candidate" on standard
+// output.
 #include <valgrind/callgrind.h>
 
 #include <cstdio>

@@ -98,8 +98,8 @@ def peers_elsewhere(page, results, names):
         for name in shown:
             found = results.of(recording, name)
             mine = score(found)
-            rows.append([f"`{recording}`" if name == shown[0] else "", name, cell(mine.pitch, 3), largest(found), cell(mine.roll, 3),
-                         cell(mine.height, 1), f"{mine.accepted} of {mine.frames}"])
+            rows.append([f"`{recording}`" if name == shown[0] else "", name, cell(mine.pitch, 3), largest(found),
+                         cell(mine.roll, 3), cell(mine.height, 1), f"{mine.accepted} of {mine.frames}"])
     page.table(["recording", "estimator", "pitch °", "largest", "roll °", "height mm", "accepted"], rows)
 
 

@@ -21,12 +21,13 @@ def yes(reached):
 def table_2_factor(results):
     mine = score(results.of(SWEEP, OURS))
     smallest = min(min(paper[0] / mine.roll, paper[1] / mine.pitch, paper[2] / mine.height) for paper in PAPER_TABLE_2.values())
-    return ["Table 2: each of the paper's figures, its virtual maps' too, beaten by at least 4 times", f"smallest factor {smallest:.1f}",
-            yes(smallest >= 4)]
+    return ["Table 2: each of the paper's figures, its virtual maps' too, beaten by at least 4 times",
+            f"smallest factor {smallest:.1f}", yes(smallest >= 4)]
 
 
 def table_1_line(title, pitch, roll):
-    return [f"Table 1: below 0.05° pitch and roll down to 1 % of the points, {title}", f"at most {pitch:.3f}° pitch, {roll:.3f}° roll",
+    return [f"Table 1: below 0.05° pitch and roll down to 1 % of the points, {title}",
+            f"at most {pitch:.3f}° pitch, {roll:.3f}° roll",
             yes(pitch < 0.05 and roll < 0.05)]
 
 
@@ -92,7 +93,8 @@ def budget(results, group):
     """What the fastest peer of a group executes, and what 20 times less would leave; both also a sample of our grid."""
     _, peer = fastest_peer(results, group)
     count, no_road = instructions(results, SWEEP, peer), results.of("no-road", peer)
-    return {"peer": peer, "pitch": f"{mean_absolute(results.of(SWEEP, peer), 0):.1f}", **over_the_bump(results, peer), "believed": sum(row.status == "ok" for row in no_road),
+    return {"peer": peer, "pitch": f"{mean_absolute(results.of(SWEEP, peer), 0):.1f}", **over_the_bump(results, peer),
+            "believed": sum(row.status == "ok" for row in no_road),
             "no_road": len(no_road), "count": f"{count / MILLION:.1f}", "ratio": times(instruction_ratio(results, SWEEP, peer)),
             "time": times(time_ratio(results, SWEEP, peer)), "left": f"{count / 20 / MILLION:.2f}",
             "left_a_sample": f"{count / 20 / (PIXELS / GRID_STEP):.0f}"}
@@ -106,6 +108,7 @@ def words(results):
                               "Open3D: every pixel, whole map")
     figures = {"ours": f"{ours / MILLION:.1f}", "bare": f"{bare / MILLION:.1f}", "bare_a_pixel": f"{bare / PIXELS:.0f}",
                "bare_ratio": f"{bare / ours:.2f}", "bare_grid": f"{bare / GRID_STEP / MILLION:.2f}",
-               "plain": times(time_ratio(results, SWEEP, plain)), "thinned": times(time_ratio(results, SWEEP, thinned)), "open3d": times(time_ratio(results, SWEEP, open3d)), "used": used, "helped": helped,
+               "plain": times(time_ratio(results, SWEEP, plain)), "thinned": times(time_ratio(results, SWEEP, thinned)),
+               "open3d": times(time_ratio(results, SWEEP, open3d)), "used": used, "helped": helped,
                "pitch": f"{mean_absolute(results.of(SWEEP, OURS), 0):.3f}"}
     return [text.format(**figures) for text in texts.VERDICT]

@@ -86,7 +86,7 @@ def over_the_bump(results, peer):
     both = [row for row in results.of("speed-bump", peer) if row.frame in accepted]
     refused = errors([row for row in results.of("speed-bump", peer) if row.frame not in accepted], 0)
     factor = mean_absolute(both, 0) / mean_absolute(results.of("speed-bump", OURS), 0)
-    return {"bump": f"{np.abs(refused).max():.1f}", "bump_factor": f"{factor:.1f}"}
+    return {"bump": f"{np.abs(refused).max(initial=0):.1f}", "bump_factor": f"{factor:.1f}"}
 
 
 def budget(results, group):

@@ -5,7 +5,7 @@ Armingol, de la Escalera, "Pose Self-Calibration of Stereo Vision Systems for Au
 2016, 16, 1492) and beside what a project would otherwise use. This page is written by one command, which installs what
 only it needs in an environment of its own:"""
 
-COMMAND = "sh host_tests/evaluation/run.sh     # about 40 minutes; the head of the file lists what can be set"
+COMMAND = "sh host_tests/evaluation/run.sh     # half an hour on two cores; the head of the file lists what can be set"
 
 READING = """Errors are mean absolute errors, estimate minus truth, over the frames that got a pose, unless it says otherwise. The frames
 are the *full* fixture set of [fixtures/README.md](../../fixtures/README.md): other seeds than the committed one, on which settings were

@@ -87,11 +87,18 @@ def mean_absolute(rows, axis):
     return float(np.mean(np.abs(values))) if len(values) else None
 
 
+def absolute_by_frame(rows, axis):
+    """{frame: mean absolute error}: some candidates are tried several times a frame."""
+    found = {}
+    for row in rows:
+        found.setdefault(row.frame, []).append(row)
+    return {frame: mean_absolute(same, axis) for frame, same in found.items() if len(errors(same, axis))}
+
+
 def lead(results, recording, peer, axis):
     """How much further off the peer is than ours, mean over the frames that both have, and the standard error of that mean."""
-    ours = {row.frame: abs(errors([row], axis)) for row in results.of(recording, OURS)}
-    theirs = {row.frame: abs(errors([row], axis)) for row in results.of(recording, peer)}
-    found = np.array([(theirs[frame] - ours[frame])[0] for frame in ours if len(ours[frame]) and len(theirs.get(frame, []))])
+    ours, theirs = (absolute_by_frame(results.of(recording, name), axis) for name in (OURS, peer))
+    found = np.array([theirs[frame] - ours[frame] for frame in ours if frame in theirs])
     return float(np.mean(found)), float(np.std(found, ddof=1) / np.sqrt(len(found)))
 
 

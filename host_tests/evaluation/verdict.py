@@ -59,7 +59,7 @@ def ahead_of_peers(results, axis, name, digits, unit, group):
     ahead, chance = lead(results, SWEEP, peer, axis)
     measured = (f"ours {mine:.{digits}f}{unit}, best peer {best:.{digits}f}{unit} ({peer}); "
                 f"lead {ahead:.{digits}f} ± {chance:.{digits}f}{unit}")
-    doubt = ", but within chance" if 0 < ahead < CHANCE * chance else ""
+    doubt = ", but within chance" if abs(ahead) < CHANCE * chance else ""
     return [f"Ahead of every peer on the roll sweep, {name}: peers {group}", measured, yes(mine < best) + doubt]
 
 

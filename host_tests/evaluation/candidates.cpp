@@ -27,23 +27,22 @@ void add_comparators(std::vector<Candidate>& all) {
     all.push_back({"virtual free map", [](const Input& input) { return virtual_map_pose(input, MapPixels::free); }});
 }
 
-void add_hough(std::vector<Candidate>& all, const std::string& name, HoughOptions options) {
-    all.push_back({"Hough: " + name, [options](const Input& input) { return hough_pose(input, options); }});
+std::string name_of(const std::string& peer, bool cropped) { return peer + (cropped ? ", cropped" : ", whole map"); }
+
+void add_hough(std::vector<Candidate>& all, const Samples& samples, bool cropped) {
+    const auto add = [&](const std::string& name, const HoughOptions& options) {
+        all.push_back({name_of("Hough: " + name, cropped),
+                       [samples, options](const Input& input) { return hough_pose(input, samples, options); }});
+    };
+    if (!cropped) add("1 px, 1 degree", {1.0, 1.0, false});
+    add("1 px, 1 degree, then least squares", {1.0, 1.0, true});
+    add("0.5 px, 0.1 degree, then least squares", {0.5, 0.1, true});
 }
 
-void add_plane_ransac(std::vector<Candidate>& all, const std::string& name, PlaneRansacOptions options) {
-    all.push_back({"RANSAC plane: " + name, [options](const Input& input) { return plane_ransac_pose(input, options); }});
-}
-
-void add_peers(std::vector<Candidate>& all) {
-    add_hough(all, "1 px, 1 degree", {1.0, 1.0, false, false});
-    add_hough(all, "1 px, 1 degree, then least squares, cropped", {1.0, 1.0, true, true});
-    add_hough(all, "0.5 px, 0.1 degree, then least squares", {0.5, 0.1, true, false});
-    add_hough(all, "0.5 px, 0.1 degree, then least squares, cropped", {0.5, 0.1, true, true});
-    for (const bool cropped : {false, true})
-        for (const bool sparse : {false, true})
-            add_plane_ransac(all, std::string(cropped ? "cropped" : "whole map") + (sparse ? ", 2 x 4 grid" : ", every pixel"),
-                             {cropped, sparse, 0.6});
+void add_plane_ransac(std::vector<Candidate>& all, const Samples& samples, bool cropped) {
+    for (const bool sparse : {false, true})
+        all.push_back({name_of(std::string("RANSAC plane: ") + (sparse ? "2 x 4 grid" : "every pixel"), cropped),
+                       [samples, sparse](const Input& input) { return plane_ransac_pose(input, samples, {sparse, 0.6}); }});
 }
 
 }  // namespace
@@ -60,10 +59,20 @@ Answer answer_of(const DisparityPlane& plane, const recording_rig_t& rig) {
     return is_within_limits(pose) ? Answer{"ok", true, pose} : no_road();
 }
 
+std::vector<Candidate> peer_candidates(const recording_t& recording) {
+    std::vector<Candidate> all;
+    for (const bool cropped : {false, true}) {
+        const Samples samples(recording.rig, cropped);
+        add_hough(all, samples, cropped);
+        add_plane_ransac(all, samples, cropped);
+    }
+    return all;
+}
+
 std::vector<Candidate> all_candidates(const recording_t& recording) {
     std::vector<Candidate> all = our_candidates(recording);
     add_comparators(all);
-    add_peers(all);
+    for (Candidate& peer : peer_candidates(recording)) all.push_back(std::move(peer));
     add_oracles(all);
     return all;
 }

@@ -29,6 +29,7 @@ bool is_within_limits(const Pose& pose);
 Answer no_road();
 Answer answer_of(const DisparityPlane& plane, const recording_rig_t& rig);
 
+std::vector<Candidate> peer_candidates(const recording_t& recording);
 std::vector<Candidate> all_candidates(const recording_t& recording);
 
 }  // namespace evaluation

@@ -1,8 +1,8 @@
 // roadpose-evaluate RECORDING... >results.csv: every candidate on every frame, with its time. One line a candidate and
 // frame. All run in this one process, on one core, each frame by all before the next one: they see the same machine.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <vector>
 
@@ -15,10 +15,8 @@ namespace {
 constexpr std::size_t repeats = 5;
 constexpr double long_us = 20000;  // what takes longer is run once: a chance delay is small beside it
 
-double now_us() {
-    using namespace std::chrono;
-    return duration<double, std::micro>(steady_clock::now().time_since_epoch()).count();
-}
+// Processor time of this process: what others do on the machine meanwhile is not in it.
+double now_us() { return 1e6 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Answer timed(const Candidate& candidate, const Input& input, double& median_us) {
     std::vector<double> times;

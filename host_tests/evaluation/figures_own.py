@@ -4,9 +4,9 @@ import csv
 import matplotlib.pyplot as plt
 import numpy as np
 
-from results import OURS, errors, mean_absolute, time_ratio, worst
+from results import GROUPS, OURS, errors, group_of, mean_absolute, time_ratio, worst
 from studio import horizon_row
-from tables import SWEEP, cell, is_peer
+from tables import SWEEP, cell, peers_of
 
 AXES = (("pitch error, degrees", 0, 0.15), ("roll error, degrees", 1, 0.1), ("height error, mm", 2, 8))
 
@@ -106,15 +106,18 @@ def sensitivity_rows(path):
 
 def peers(studio, results):
     figure, panels = plt.subplots(1, 2, figsize=(10.5, 4), layout="constrained", sharey=True)
-    shown = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of(SWEEP, name)]
+    shown = [OURS] + [name for group in GROUPS for name in peers_of(results, SWEEP, group)]
     for axes, (axis, label) in zip(panels, ((0, "pitch, degrees"), (1, "roll, degrees"))):
         for place, name in enumerate(shown):
             error, ratio = mean_absolute(results.of(SWEEP, name), axis), time_ratio(results, SWEEP, name)
             if error is None:
                 continue
             colour = "tab:green" if name == OURS else {"H": "tab:orange", "R": "tab:blue", "O": "tab:red"}[name[0]]
-            axes.loglog(error, ratio, "o", color=colour, label=f"{place}  {name}" if axis == 0 else None)
-            axes.annotate(str(place), (error, ratio), xytext=(5, 3), textcoords="offset points")
+            filled = name == OURS or group_of(name) == GROUPS[0]
+            axes.loglog(error, ratio, "o", color=colour, markerfacecolor=colour if filled else "white",
+                        label=f"{place}  {name}" if axis == 0 else None)
+            beside = (5, 3) if place % 2 else (5, -9) if place else (-9, 3)  # neighbours in the list may lie on each other
+            axes.annotate(str(place), (error, ratio), xytext=beside, textcoords="offset points")
         axes.set(xlabel="mean absolute error, " + label)
         axes.margins(0.15)
     panels[0].set_ylabel("time / ours")

@@ -61,7 +61,7 @@ def profile_row(axes, studio, recording, frame):
     shown = (profile > 0) & (profile < 128)
     axes[3].plot(profile[shown], rows[shown], "--", color="red", linewidth=2)
     axes[1].set_ylim(SHOWN_PX, 0)
-    axes[0].set_ylabel(f"{recording.name} {frame}")
+    axes[0].set(xticks=[], yticks=[], ylabel=f"{recording.name}, frame {frame}")
     axes[1].set(ylabel="disparity, px", xlabel="u, px")
     for place in (2, 3):
         axes[place].set(xlim=(0, SHOWN_PX), xlabel="disparity, px", ylabel="v, px")

@@ -2,28 +2,15 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "corridor.hpp"
 #include "line_fit.hpp"
 
 namespace evaluation {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int searched_levels = 128;      // as far as the matcher searched: no work on empty cells
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr unsigned searched_levels = 128;      // as far as the matcher searched: no work on empty cells
 constexpr double filled_share = 0.02;     // a cell counts as filled above this share of the image's width
-
-cv::Mat1w histogram_of(const Input& input, bool cropped) {
-    if (!cropped) return v_disparity(input.disparity);
-    const recording_rig_t& rig = input.rig();
-    cv::Mat1w histogram(input.disparity.rows, levels, std::uint16_t{0});
-    for (int v = 0; v < input.disparity.rows; ++v)
-        for (int u = 0; u < input.disparity.cols; ++u) {
-            const float disparity = input.disparity(v, u);
-            if (disparity > 0 && disparity < levels && is_in_crop(rig, u - rig.cu_px, disparity))
-                ++histogram(v, static_cast<int>(disparity));
-        }
-    return histogram;
-}
+constexpr int votes_min = 40;
 
 // Image of the histogram: column = level, row = v; the line is x cos(theta) + y sin(theta) = rho.
 Line line_of(const cv::Vec2f& hough, const recording_rig_t& rig) {
@@ -32,12 +19,14 @@ Line line_of(const cv::Vec2f& hough, const recording_rig_t& rig) {
     return {slope, at_row_zero + slope * rig.cv_px};
 }
 
+// Only lines of a slope that the mounting limits allow are searched: heights of 0.3...4 m, pitch up to 15 degrees.
 std::optional<Line> strongest_road(const cv::Mat1w& histogram, const HoughOptions& options, const recording_rig_t& rig) {
-    const cv::Mat filled = histogram.colRange(0, searched_levels) > filled_share * rig.width;
+    const cv::Mat filled = histogram > filled_share * rig.width;
+    const double first = 180 * degree - std::atan(rig.baseline_m / 0.3);
+    const double last = 180 * degree - std::atan(rig.baseline_m * std::cos(15 * degree) / 4);
     std::vector<cv::Vec2f> found;  // strongest first
-    cv::HoughLines(filled, found, options.rho_px, options.theta_deg * pi / 180, 40, 0, 0, pi / 2, pi);
+    cv::HoughLines(filled, found, options.rho_px, options.theta_deg * degree, votes_min, 0, 0, first, last);
     for (const cv::Vec2f& hough : found) {
-        if (std::abs(std::cos(hough[1])) < 1e-3) continue;
         const Line line = line_of(hough, rig);
         if (is_possible(line, rig)) return line;
     }
@@ -46,9 +35,22 @@ std::optional<Line> strongest_road(const cv::Mat1w& histogram, const HoughOption
 
 }  // namespace
 
-Answer hough_pose(const Input& input, const HoughOptions& options) {
+cv::Mat1w v_disparity_of(const Input& input, const Samples& samples) {
     const recording_rig_t& rig = input.rig();
-    const cv::Mat1w histogram = histogram_of(input, options.cropped);
+    const SampleReader read = samples.reader();  // a local: nothing in it is fetched again for each pixel
+    cv::Mat1w histogram(rig.height, static_cast<int>(searched_levels), std::uint16_t{0});
+    for (int v = 0; v < rig.height; ++v) {
+        const std::uint16_t* const sample = &input.native[static_cast<std::size_t>(v) * rig.width];
+        std::uint16_t* const row = histogram[v];
+        for (int u = 0; u < rig.width; ++u)
+            if (read.keeps(u, sample[u]) && read.level(sample[u]) < searched_levels) ++row[read.level(sample[u])];
+    }
+    return histogram;
+}
+
+Answer hough_pose(const Input& input, const Samples& samples, const HoughOptions& options) {
+    const recording_rig_t& rig = input.rig();
+    const cv::Mat1w histogram = v_disparity_of(input, samples);
     std::optional<Line> line = strongest_road(histogram, options, rig);
     if (!line) return no_road();
     if (options.least_squares) line = least_squares_line(histogram, *line, 1.5, rig);

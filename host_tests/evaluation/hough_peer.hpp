@@ -2,15 +2,18 @@
 // be a road.
 #pragma once
 #include "candidates.hpp"
+#include "samples.hpp"
 
 namespace evaluation {
 
 struct HoughOptions {
     double rho_px, theta_deg;   // resolution
     bool least_squares;         // of the histogram within 1.5 levels of the line, after it
-    bool cropped;               // only what lies within 3 m sideways and 25 m ahead
 };
 
-Answer hough_pose(const Input& input, const HoughOptions& options);
+Answer hough_pose(const Input& input, const Samples& samples, const HoughOptions& options);
+
+// The pass that it begins with: for each kept pixel of each row one count at its whole disparity.
+cv::Mat1w v_disparity_of(const Input& input, const Samples& samples);
 
 }  // namespace evaluation

@@ -1,5 +1,5 @@
-// One frame as each candidate likes it best: raw samples in the machine's byte order, and disparities as numbers. The
-// conversions are not timed.
+// One frame: the raw samples in the machine's byte order, which is what our library and the peers get, and disparities as
+// numbers for the comparators and the figures. Bringing the file's bytes into this form is not timed.
 #pragma once
 #include <opencv2/core.hpp>
 

@@ -81,10 +81,14 @@ std::optional<Line> ransac_line(const cv::Mat1w& histogram, const recording_rig_
 
 Line least_squares_line(const cv::Mat1w& histogram, const Line& start, double band_px, const recording_rig_t& rig) {
     double n = 0, y = 0, d = 0, yy = 0, yd = 0;
-    for (const Cell& cell : filled_cells(histogram, rig)) {
-        if (std::abs(cell.disparity - start.at(cell.y)) > band_px) continue;
-        n += cell.count, y += cell.count * cell.y, d += cell.count * cell.disparity;
-        yy += cell.count * cell.y * cell.y, yd += cell.count * cell.y * cell.disparity;
+    for (int v = 0; v < histogram.rows; ++v) {
+        const double row = v - rig.cv_px, middle = start.at(row);
+        const int first = std::max(0, static_cast<int>(std::ceil(middle - band_px - 0.5)));
+        const int last = std::min(histogram.cols - 1, static_cast<int>(std::floor(middle + band_px - 0.5)));
+        for (int level = first; level <= last; ++level) {
+            const double count = histogram(v, level), disparity = level + 0.5;
+            n += count, y += count * row, d += count * disparity, yy += count * row * row, yd += count * row * disparity;
+        }
     }
     const double determinant = n * yy - y * y;
     if (n < 2 || determinant <= 0) return start;

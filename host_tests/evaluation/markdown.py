@@ -6,7 +6,7 @@ import re
 
 STYLE = """body{font:16px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}
 table{border-collapse:collapse;margin:1em 0;font-size:.92em}td,th{border:1px solid #ccc;padding:.25em .6em;text-align:right}
-td:first-child,th:first-child{text-align:left}th{background:#f2f2f2}figure{margin:1.5em 0}img{max-width:100%}
+.words{text-align:left}th{background:#f2f2f2}figure{margin:1.5em 0}img{max-width:100%}
 figcaption{color:#444;font-size:.92em}code,pre{background:#f5f5f5}pre{padding:.6em;overflow-x:auto}"""
 
 
@@ -48,9 +48,14 @@ class Page:
                 f"<style>{STYLE}</style></head><body>\n<h1>{title}</h1>\n{body}\n</body></html>\n")
 
 
+def word_columns(rows):
+    """For each column whether it holds words: those stand on the left, numbers on the right."""
+    return [place == 0 or any(re.search("[A-Za-z]{3}", cell) for cell in column) for place, column in enumerate(zip(*rows))]
+
+
 def markdown_table(content, _):
     header, rows = content
-    lines = ["| " + " | ".join(header) + " |", "|---" + "|---:" * (len(header) - 1) + "|"]
+    lines = ["| " + " | ".join(header) + " |", "|" + "".join("---|" if words else "---:|" for words in word_columns(rows))]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
@@ -75,13 +80,15 @@ def inline(text):
     text = re.sub(r"`([^`]+)`", r"<code>\1</code>", text)
     text = re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", text)
     text = re.sub(r"\*([^*]+)\*", r"<i>\1</i>", text)
+    text = re.sub(r"(\d) %", "\\1\u00a0%", text)
     return re.sub(r"\[([^\]]+)\]\(([^)]+)\)", r'<a href="\2">\1</a>', text)
 
 
 def html_table(content):
     header, rows = content
-    lines = ["<tr>" + "".join(f"<th>{inline(cell)}</th>" for cell in header) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{inline(cell)}</td>" for cell in row) + "</tr>" for row in rows]
+    marks = [' class="words"' if words else "" for words in word_columns(rows)]
+    lines = ["<tr>" + "".join(f"<{kind}{mark}>{inline(cell)}</{kind}>" for cell, mark in zip(row, marks)) + "</tr>"
+             for kind, row in [("th", header), *(("td", row) for row in rows)]]
     return "<table>\n" + "\n".join(lines) + "\n</table>"
 
 

@@ -11,11 +11,11 @@ import texts
 import verdict
 from markdown import Page
 from recording import Recording
-from results import Results, read
+from results import Results, read, read_counts
 from studio import Studio
 
-PEERS_ELSEWHERE = ["roadpose", "RANSAC plane: cropped, 2 x 4 grid", "RANSAC plane: cropped, every pixel",
-                   "Open3D: cropped, every pixel"]
+PEERS_ELSEWHERE = ["roadpose", "RANSAC plane: every pixel, whole map", "RANSAC plane: every pixel, cropped",
+                   "RANSAC plane: 2 x 4 grid, cropped", "Open3D: every pixel, cropped"]
 
 
 def arguments():
@@ -36,10 +36,13 @@ def section(page, heading):
     page.heading(heading)
 
 
-def paper_tables(page, studio, results, _):
+def paper_tables(page, studio, results, place):
     section(page, "Table 1: share of the points")
-    tables.table_1(page, results)
-    page.text(texts.TABLE_1)
+    share = place["share"]
+    tables.table_1(page, results, share)
+    for text in texts.TABLE_1.split("\n\n"):
+        page.text(text.format(points=share.points, least=share.points / 100, pixels=share.pixels, same=share.pixels / 100,
+                              percent=share.percent))
     section(page, "Table 2: Method 2 and the virtual maps")
     tables.table_2(page, results)
     page.text(texts.TABLE_2)
@@ -82,7 +85,7 @@ def peers(page, studio, results, _):
     page.figure(figures_own.peers(studio, results), texts.PEER_FIGURE)
     page.text("The drive on the level street, where roll is 0 and the Hough line is at home:")
     tables.peers(page, results, "level")
-    page.text("All sets; *largest* is the largest pitch error of a frame that got a pose:")
+    page.text(texts.ELSEWHERE)
     tables.peers_elsewhere(page, results, [name for name in PEERS_ELSEWHERE if name in results.candidates()])
     page.text(texts.FALSE_ROADS)
     tables.false_roads(page, results)
@@ -109,15 +112,19 @@ def recordings_in(folder):
 def main():
     options = arguments()
     studio = Studio(options.programs, options.work, options.out / "figures")
-    results = Results(read([options.work / name for name in ("results.csv", "results-large.csv", "open3d.csv")]))
-    place = {"recordings": recordings_in(options.full), "fixtures": options.fixtures, "work": options.work, "out": options.out}
+    results = Results(read([options.work / name for name in ("results.csv", "results-large.csv", "open3d.csv")]),
+                      read_counts(options.work / "instructions.csv"))
+    share = verdict.Share(options.work / "share.csv")
+    place = {"share": share, "recordings": recordings_in(options.full), "fixtures": options.fixtures, "work": options.work,
+             "out": options.out}
     page = Page("Evaluation: the paper's tables and figures, and the peers")
     page.text(texts.INTRODUCTION)
     page.code(texts.COMMAND)
     page.text(texts.READING)
     page.heading("What was to be reached")
-    page.table(["target", "measured", ""], verdict.rows(results))
-    page.text(texts.VERDICT)
+    page.table(["target", "measured", ""], verdict.rows(results, share))
+    for text in verdict.words(results):
+        page.text(text)
     for part in (paper_tables, paper_figures, real, peers, own):
         part(page, studio, results, place)
     page.heading("Look at your own recording")

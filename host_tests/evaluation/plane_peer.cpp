@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "corridor.hpp"
 #include "random_numbers.hpp"
 
 namespace evaluation {
@@ -15,14 +14,17 @@ struct Point {
     double x, y, disparity;
 };
 
-std::vector<Point> points_of(const Input& input, const PlaneRansacOptions& options) {
+std::vector<Point> points_of(const Input& input, const Samples& samples, bool sparse) {
     const recording_rig_t& rig = input.rig();
+    const SampleReader read = samples.reader();
+    const int row_step = sparse ? 2 : 1, column_step = sparse ? 4 : 1;
     std::vector<Point> points;
-    for (int v = 0; v < rig.height; v += options.sparse ? 2 : 1)
-        for (int u = 0; u < rig.width; u += options.sparse ? 4 : 1) {
-            const Point point{u - rig.cu_px, v - rig.cv_px, input.disparity(v, u)};
-            if (point.disparity > 0 && (!options.cropped || is_in_crop(rig, point.x, point.disparity))) points.push_back(point);
-        }
+    points.reserve(input.native.size() / static_cast<std::size_t>(row_step * column_step));
+    for (int v = 0; v < rig.height; v += row_step) {
+        const std::uint16_t* const row = &input.native[static_cast<std::size_t>(v) * rig.width];
+        for (int u = 0; u < rig.width; u += column_step)
+            if (read.keeps(u, row[u])) points.push_back({u - rig.cu_px, v - rig.cv_px, read.disparity(row[u])});
+    }
     return points;
 }
 
@@ -64,22 +66,22 @@ std::optional<DisparityPlane> ransac(const std::vector<Point>& points, double ba
 }
 
 DisparityPlane least_squares(const std::vector<Point>& points, const DisparityPlane& start, double band) {
-    cv::Matx33d normal = cv::Matx33d::zeros();
-    cv::Vec3d right(0, 0, 0);
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, d = 0, xd = 0, yd = 0;
     for (const Point& point : points) {
         if (!is_near(point, start, band)) continue;
-        const cv::Vec3d row(point.x, point.y, 1);
-        normal += row * row.t();
-        right += point.disparity * row;
+        n += 1, x += point.x, y += point.y, d += point.disparity;
+        xx += point.x * point.x, xy += point.x * point.y, yy += point.y * point.y;
+        xd += point.x * point.disparity, yd += point.y * point.disparity;
     }
-    const cv::Vec3d plane = normal.solve(right, cv::DECOMP_CHOLESKY);
+    const cv::Matx33d normal(xx, xy, x, xy, yy, y, x, y, n);
+    const cv::Vec3d plane = normal.solve(cv::Vec3d(xd, yd, d), cv::DECOMP_CHOLESKY);
     return {plane[0], plane[1], plane[2]};
 }
 
 }  // namespace
 
-Answer plane_ransac_pose(const Input& input, const PlaneRansacOptions& options) {
-    const std::vector<Point> points = points_of(input, options);
+Answer plane_ransac_pose(const Input& input, const Samples& samples, const PlaneRansacOptions& options) {
+    const std::vector<Point> points = points_of(input, samples, options.sparse);
     if (points.size() < 100) return no_road();
     std::optional<DisparityPlane> plane = ransac(points, options.band_px, input.rig());
     for (int round = 0; plane && round < 3; ++round) plane = least_squares(points, *plane, options.band_px);

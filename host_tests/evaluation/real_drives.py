@@ -8,9 +8,9 @@ import numpy as np
 from results import OURS, errors
 
 DRIVES = {"street-lidar": "figure-13", "straight-motion": "figure-14"}
-SHOWN = (OURS, "Method 2 alone", "virtual free map", "RANSAC plane: cropped, every pixel",
-         "RANSAC plane: cropped, 2 x 4 grid", "Hough: 1 px, 1 degree, then least squares, cropped",
-         "Open3D: cropped, every pixel")
+SHOWN = (OURS, "Method 2 alone", "virtual free map", "RANSAC plane: every pixel, whole map",
+         "RANSAC plane: every pixel, cropped", "RANSAC plane: 2 x 4 grid, cropped",
+         "Hough: 1 px, 1 degree, then least squares, cropped", "Open3D: every pixel, cropped")
 
 
 def mean_and_deviation(found, digits):

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -97,8 +98,10 @@ void write_words(cv::Mat3b& image, const picture_t& picture, const roadpose_pose
     if (pose.status == ROADPOSE_STATUS_OK)
         text += cv::format("  pitch %+.2f  roll %+.2f  height %.3f m", degrees(pose.pitch_urad), degrees(pose.roll_urad),
                            pose.height_um * 1e-6);
-    cv::putText(image, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {0, 0, 0}, 3, cv::LINE_AA);
-    cv::putText(image, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, white, 1, cv::LINE_AA);
+    const double width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.5, 1, nullptr).width;
+    const double size = 0.5 * std::min(1.0, (image.cols - 16) / width);  // so that all of it fits in a narrow image
+    cv::putText(image, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
+    cv::putText(image, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, size, white, 1, cv::LINE_AA);
 }
 
 // White on black; columns are disparities, rows those of the image.

@@ -15,6 +15,18 @@ PAPER_TABLE_2 = {"Method 2": (0.38, 0.20, 12), "virtual disparity map": (0.36, 0
                  "virtual free map": (0.33, 0.28, 17)}  # roll, pitch, height
 
 
+GROUPS = ("as one would use them", "helped by us")
+
+
+def is_peer(candidate):
+    return candidate.startswith(("Hough", "RANSAC plane", "Open3D"))
+
+
+def group_of(peer):
+    """Helped is who gets our crop or our sampling grid."""
+    return GROUPS["cropped" in peer or "2 x 4 grid" in peer]
+
+
 def number(text):
     return float(text) if text else None
 
@@ -35,9 +47,20 @@ def read(paths):
     return rows
 
 
+def read_counts(path):
+    """Instructions of one frame: {(recording, candidate): {frame: count}}."""
+    counts = {}
+    with open(path) as file:
+        for line in csv.DictReader(file):
+            of_frames = counts.setdefault((line["recording"], line["candidate"]), {})
+            of_frames[int(line["frame"])] = int(line["instructions"])
+    return counts
+
+
 class Results:
-    def __init__(self, rows):
+    def __init__(self, rows, counts=None):
         self.rows = rows
+        self.counts = counts or {}
         self.by_key = {}
         for row in rows:
             self.by_key.setdefault((row.recording, row.candidate), []).append(row)
@@ -64,6 +87,21 @@ def mean_absolute(rows, axis):
     return float(np.mean(np.abs(values))) if len(values) else None
 
 
+def absolute_by_frame(rows, axis):
+    """{frame: mean absolute error}: some candidates are tried several times a frame."""
+    found = {}
+    for row in rows:
+        found.setdefault(row.frame, []).append(row)
+    return {frame: mean_absolute(same, axis) for frame, same in found.items() if len(errors(same, axis))}
+
+
+def lead(results, recording, peer, axis):
+    """How much further off the peer is than ours, mean over the frames that both have, and the standard error of that mean."""
+    ours, theirs = (absolute_by_frame(results.of(recording, name), axis) for name in (OURS, peer))
+    found = np.array([theirs[frame] - ours[frame] for frame in ours if frame in theirs])
+    return float(np.mean(found)), float(np.std(found, ddof=1) / np.sqrt(len(found)))
+
+
 def score(rows):
     accepted = sum(row.status == "ok" for row in rows)
     return Score(len(rows), accepted, *(mean_absolute(rows, axis) for axis in range(3)))
@@ -83,3 +121,15 @@ def time_ratio(results, recording, candidate):
     ours = {row.frame: row.time_us for row in results.of(recording, OURS)}
     ratios = [row.time_us / ours[row.frame] for row in results.of(recording, candidate) if row.frame in ours]
     return float(np.median(ratios)) if ratios else None
+
+
+def instructions(results, recording, candidate):
+    """Mean over the frames that were counted; None where none were."""
+    found = results.counts.get((recording, candidate))
+    return float(np.mean(list(found.values()))) if found else None
+
+
+def instruction_ratio(results, recording, candidate):
+    """As time_ratio(), of instructions: whoever else uses the machine does not change it."""
+    ours, found = (results.counts.get((recording, name)) for name in (OURS, candidate))
+    return float(np.median([count / ours[frame] for frame, count in found.items()])) if found else None

@@ -15,7 +15,7 @@ mkdir -p "$build"
 build=$(cd "$build" && pwd)
 work=$build/results
 full=${ROADPOSE_FULL_SET:-$build/full-set}
-packages='gcc g++ cmake make libopencv-dev python3 python3-venv ca-certificates'
+packages='gcc g++ cmake make libopencv-dev valgrind python3 python3-venv ca-certificates'
 
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
@@ -58,6 +58,11 @@ standard_sets() {
     done
 }
 
+count_instructions() {
+    "$build/python/bin/python" "$here/count_instructions.py" "$build/roadpose-count" "$work/counted" \
+        "$full/roll-sweep" 0 4 8 12 16 20 24 28 32 36 40 -- "$full/level" 2 6 10 14 18
+}
+
 evaluate_drives() {
     drives=
     for name in street-lidar straight-motion; do
@@ -91,7 +96,10 @@ into "$work/results-large.csv" "$build/roadpose-evaluate-large" "$full/wide-rig"
 step 'Open3D on the same frames'
 # shellcheck disable=SC2086
 into "$work/open3d.csv" "$build/python/bin/python" "$here/open3d_peer.py" $sets
-step 'Sensitivity'
+step 'Instructions, counted'
+into "$work/instructions.csv" count_instructions
+step 'Sensitivity, and the share of the points'
+into "$work/share.csv" "$build/roadpose-share" "$full/roll-sweep"
 into "$work/sensitivity.csv" "$build/roadpose-sensitivity" "$full/roll-sweep" "$full/level"
 evaluate_drives
 step 'Page'

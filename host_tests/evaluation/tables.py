@@ -3,7 +3,8 @@ from collections import Counter
 
 import numpy as np
 
-from results import (OURS, PAPER_TABLE_1, PAPER_TABLE_2, errors, mean_absolute, score, time_ratio)
+from results import (GROUPS, OURS, PAPER_TABLE_1, PAPER_TABLE_2, errors, group_of, instruction_ratio, is_peer, mean_absolute,
+                     score, time_ratio)
 
 SWEEP = "roll-sweep"
 
@@ -28,13 +29,14 @@ def change(percent):
     return f"{percent:+.0f} %".replace("-", "−")
 
 
-def table_1(page, results):
+def table_1(page, results, of_pixels):
     rows = []
     for share, (pitch, roll, saved) in PAPER_TABLE_1.items():
         alone, refined = (score(results.of(SWEEP, f"points {share}{suffix}")) for suffix in ("", " refined"))
         rows.append([f"{share} %", cell(pitch, 3), cell(roll, 3), f"−{saved} %", cell(alone.pitch, 3),
                      cell(alone.roll, 3), change(-time_saved(results, share, "")), cell(refined.pitch, 3),
                      cell(refined.roll, 3), change(-time_saved(results, share, " refined"))])
+    rows.append(["1 % of the pixels", "", "", "", cell(of_pixels.pitch, 3), cell(of_pixels.roll, 3), "", "", "", ""])
     page.table(["points", "paper: pitch °", "roll °", "time", "Method 2 alone: pitch °", "roll °", "time",
                 "with refinement: pitch °", "roll °", "time"], rows)
 
@@ -60,37 +62,45 @@ def table_2(page, results):
                 "paper / ours: roll", "pitch", "height", "accepted"], rows)
 
 
-def is_peer(candidate):
-    return candidate.startswith(("Hough", "RANSAC plane", "Open3D"))
+def times(value):
+    return cell(value, 1 if value is not None and value < 100 else 0)
 
 
 def peer_row(results, recording, candidate):
     mine = score(results.of(recording, candidate))
-    ratio_of_times = time_ratio(results, recording, candidate)
-    return [candidate, *triple(mine), f"{mine.accepted} of {mine.frames}",
-            "1" if candidate == OURS else cell(ratio_of_times, 1 if ratio_of_times < 100 else 0)]
+    return [candidate, *triple(mine), f"{mine.accepted} of {mine.frames}", times(time_ratio(results, recording, candidate)),
+            times(instruction_ratio(results, recording, candidate))]
+
+
+def peers_of(results, recording, group):
+    return [name for name in results.candidates()
+            if is_peer(name) and group_of(name) == group and results.of(recording, name)]
+
+
+def grouped(results, recording, row_of, columns):
+    """A line for ours, then the two groups of peers under their names."""
+    rows = [row_of(OURS)]
+    for group in GROUPS:
+        rows.append([f"*{group}*"] + [""] * columns)
+        rows += [row_of(name) for name in peers_of(results, recording, group)]
+    return rows
 
 
 def peers(page, results, recording):
-    shown = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of(recording, name)]
-    page.table(["", "pitch °", "roll °", "height mm", "accepted", "time / ours"],
-               [peer_row(results, recording, name) for name in shown])
+    page.table(["", "pitch °", "roll °", "height mm", "accepted", "time / ours", "instructions / ours"],
+               grouped(results, recording, lambda name: peer_row(results, recording, name), 6))
 
 
 def peers_elsewhere(page, results, names):
-    sets = [name for name in results.recordings() if name != "no-road"]
     rows = []
-    for recording in sets:
-        row = [f"`{recording}`"]
-        for name in names:
-            mine = score(results.of(recording, name))
-            row += [f"{cell(mine.pitch, 3)} / {cell(mine.roll, 3)} / {cell(mine.height, 1)}",
-                    largest(results.of(recording, name))]
-        rows.append(row)
-    header = ["recording"]
-    for name in names:
-        header += [f"{name}: pitch ° / roll ° / height mm", "largest pitch °"]
-    page.table(header, rows)
+    for recording in results.recordings():
+        shown = [name for name in names if results.of(recording, name)] if recording != "no-road" else []
+        for name in shown:
+            found = results.of(recording, name)
+            mine = score(found)
+            rows.append([f"`{recording}`" if name == shown[0] else "", name, cell(mine.pitch, 3), largest(found),
+                         cell(mine.roll, 3), cell(mine.height, 1), f"{mine.accepted} of {mine.frames}"])
+    page.table(["recording", "estimator", "pitch °", "largest", "roll °", "height mm", "accepted"], rows)
 
 
 def largest(rows):
@@ -99,10 +109,21 @@ def largest(rows):
 
 
 def false_roads(page, results):
-    names = [OURS] + [name for name in results.candidates() if is_peer(name) and results.of("no-road", name)]
-    rows = [[name, sum(row.status == "ok" for row in results.of("no-road", name)), len(results.of("no-road", name))]
-            for name in names]
-    page.table(["", "frames without a road that got a pose", "of"], rows)
+    def row_of(name):
+        found = results.of("no-road", name)
+        return [name, sum(row.status == "ok" for row in found), len(found)]
+    page.table(["", "frames without a road that got a pose", "of"], grouped(results, "no-road", row_of, 2))
+
+
+ORACLE = "oracle: true road in the corridor"
+
+
+def apart(results, recording):
+    """Mean absolute difference between our poses and the oracle's."""
+    theirs = {row.frame: row.pose for row in results.of(recording, ORACLE)}
+    pairs = [(row.pose, theirs[row.frame]) for row in results.of(recording, OURS) if row.status == "ok"]
+    differences = np.abs(np.array([np.subtract(*pair) for pair in pairs if None not in pair[1]]))
+    return [cell(float(value), digits) for value, digits in zip(differences.mean(axis=0) * (1, 1, 1000), (4, 4, 2))]
 
 
 def against_oracle(page, results):
@@ -112,11 +133,11 @@ def against_oracle(page, results):
             continue
         accepted = {row.frame for row in results.of(recording, OURS) if row.status == "ok"}
         line = [f"`{recording}`"]
-        for name in (OURS, "oracle: true road in the corridor", "oracle: true road"):
+        for name in (OURS, ORACLE, "oracle: true road"):
             line += triple(score([row for row in results.of(recording, name) if row.frame in accepted]))
-        rows.append(line)
+        rows.append(line + apart(results, recording))
     page.table(["recording", "ours: pitch °", "roll °", "height mm", "oracle in the corridor: pitch °", "roll °", "height mm",
-                "oracle, all road: pitch °", "roll °", "height mm"], rows)
+                "oracle, all road: pitch °", "roll °", "height mm", "apart: pitch °", "roll °", "height mm"], rows)
 
 
 STATUSES = ["ok", "no_disparity", "no_road", "little_support", "short_range", "poor_fit", "outside_limits"]
@@ -135,12 +156,11 @@ def drives(page, rows):
                 "deviation", "height error mm: mean", "deviation"], rows)
 
 
-def fastest_peer(results):
-    names = [name for name in results.candidates() if is_peer(name)]
+def fastest_peer(results, group, sees_roll=False):
+    names = [name for name in peers_of(results, SWEEP, group) if not (sees_roll and name.startswith("Hough"))]
     return min((time_ratio(results, SWEEP, name), name) for name in names)
 
 
-def best_peer(results, axis):
-    names = [name for name in results.candidates() if is_peer(name)]
-    known = [(mean_absolute(results.of(SWEEP, name), axis), name) for name in names]
+def best_peer(results, axis, group):
+    known = [(mean_absolute(results.of(SWEEP, name), axis), name) for name in peers_of(results, SWEEP, group)]
     return min(pair for pair in known if pair[0] is not None)

@@ -103,8 +103,9 @@ typedef struct {
 } roadpose_camera_port_t;
 
 /* Makes *port ready for an initialised instance, which from now on belongs to the port. Call it before the driver's
- * interrupt is enabled; a port in use is to be flushed before, or the frames that it holds never come back. Returns ROADPOSE_OK, or ROADPOSE_ERROR_NULL with *port unchanged: a pointer, frame_release or
- * pose_ready is NULL, or only one of lock and unlock is given. Constant time. */
+ * interrupt is enabled; a port in use is to be flushed before, or the frames that it holds never come back. Returns
+ * ROADPOSE_OK, or ROADPOSE_ERROR_NULL with *port unchanged: a pointer, frame_release or pose_ready is NULL, or only one
+ * of lock and unlock is given. Constant time. */
 roadpose_result_t roadpose_camera_init(roadpose_camera_port_t *port, const roadpose_camera_platform_t *platform,
                                        roadpose_t *instance);
 

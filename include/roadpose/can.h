@@ -259,9 +259,9 @@ typedef struct {
 roadpose_can_result_t roadpose_can_receive_init(roadpose_can_receive_t *receive,
                                                 const roadpose_can_settings_t *settings);
 
-/* Takes one data frame from the bus (no remote frame). Returns which message it was, NONE for an identifier that is not ours or on NULL;
- * receive->view.e2e[message] tells whether it could be used; only then were its signals taken over. A frame of ours
- * whose length is not 8 counts as a CRC error. Constant time. */
+/* Takes one data frame from the bus (no remote frame). Returns which message it was, NONE for an identifier that is not
+ * ours or on NULL; receive->view.e2e[message] tells whether it could be used; only then were its signals taken over. A
+ * frame of ours whose length is not 8 counts as a CRC error. Constant time. */
 roadpose_can_message_t roadpose_can_receive_frame(roadpose_can_receive_t *receive, uint32_t id, const uint8_t *data,
                                                   uint8_t length);
 

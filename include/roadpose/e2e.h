@@ -83,9 +83,9 @@ typedef struct {
 
 /* Judges what arrived in this cycle. data: the 8 bytes, or NULL when nothing arrived. Call it once for each frame that
  * arrived, and once with NULL for each cycle in which none did: every cycle without a frame, and every frame that is
- * damaged or repeated, widens the allowance max_delta by one, so an outage that the receiver has seen is SOME_LOST and not
- * WRONG_SEQUENCE; the allowance never grows beyond the counter's range less one. config or receiver NULL, or a profile that is unknown: CRC_ERROR.
- * A frame is usable when roadpose_e2e_usable() says so. */
+ * damaged or repeated, widens the allowance max_delta by one, so an outage that the receiver has seen is SOME_LOST and
+ * not WRONG_SEQUENCE; the allowance never grows beyond the counter's range less one. config or receiver NULL, or a
+ * profile that is unknown: CRC_ERROR. A frame is usable when roadpose_e2e_usable() says so. */
 roadpose_e2e_status_t roadpose_e2e_check(const roadpose_e2e_config_t *config, roadpose_e2e_receiver_t *receiver,
                                          const uint8_t *data);
 

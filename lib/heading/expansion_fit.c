@@ -99,7 +99,8 @@ static int32_t rest_q12(int32_t off_q22, cut_t cut) {
  * that direction. r is at least twice the flow's longer side, and a component of its projection at most (1 + sqrt(2)) / 2
  * times 1.07^2 of that side: below 0.7, so q31 < 2^31, and times 16 in q16 < 2^19.5. The flow across must not enter: it is
  * the error e itself, and its square would draw the focus to the side where most tracks are. What is along (nx, ny) is d
- * less e times (-ny, nx): |e| < 2^25, |n| <= 1.04 * 2^30. By the rotation: the direction across times the turn flow of one radian, |.| <= 1.04 * 6.4 < 8. */
+ * less e times (-ny, nx): |e| < 2^25, |n| <= 1.04 * 2^30.
+ * By the rotation: the direction across times the turn flow of one radian, |.| <= 1.04 * 6.4 < 8. */
 static void focus_row(const sight_t *s, int32_t *j_q16) {
     const int32_t along_x_q22 = s->dx_q22 + (int32_t)roadpose_floor_shift((int64_t)s->e_q22 * s->ny_q30, 30);
     const int32_t along_y_q22 = s->dy_q22 - (int32_t)roadpose_floor_shift((int64_t)s->e_q22 * s->nx_q30, 30);

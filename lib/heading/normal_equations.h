@@ -56,7 +56,8 @@ static inline void roadpose_sums_add_turn(roadpose_sums_t *sums, const int32_t *
     roadpose_add_product(&sums->g[4], y, e_q22);
 }
 
-/* H = L D L^T, scaled down by an even power of two, and z = L^-1 g. False where a pivot has less than 2^-14 of its diagonal left: the rows do not tell the unknowns apart. */
+/* H = L D L^T, scaled down by an even power of two, and z = L^-1 g. False where a pivot has less than 2^-14 of its
+ * diagonal left: the rows do not tell the unknowns apart. */
 bool roadpose_factorise(const roadpose_sums_t *sums, unsigned unknowns, roadpose_factors_t *factors);
 
 /* Solution in q28, each component clamped to +-1. */

@@ -132,7 +132,8 @@ void roadpose_cloud_try_pair(roadpose_cloud_t *cloud, const roadpose_points_t *p
     const uint16_t first = cloud->order[start + roadpose_lcg_below(random, count)];
     const uint16_t second = draw_partner(cloud, level, random);
     const int64_t apart = roadpose_abs(points->disparity_q8[first] - points->disparity_q8[second]);
-    const int64_t sideways = roadpose_abs(roadpose_point_column(points->column[first]) - roadpose_point_column(points->column[second]));
+    const int64_t sideways =
+        roadpose_abs(roadpose_point_column(points->column[first]) - roadpose_point_column(points->column[second]));
     if (apart <= LEVEL_WIDTH_Q8 && sideways * ROADPOSE_COLUMN_STEP >= SIDEWAYS_MIN_PX) {
         keep_pair(cloud, points, grid, first, second);
     }

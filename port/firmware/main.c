@@ -1,7 +1,8 @@
 /* roadpose-firmware: the component on an emulated microcontroller, or on any hosted machine, for comparison.
  *     roadpose-firmware RECORDING FRAMES CAN_LOG [WORD...]
- * Plays the first FRAMES frames. The words are: method-1, no-refine, e2e-2, e2e-5; fields, which
- * prints every field of every frame as well; and cost, which tells on standard error what the frames cost. A debugger's command line has no quotes: no argument contains a blank.
+ * Plays the first FRAMES frames. The words are: method-1, no-refine, e2e-2, e2e-5; fields, which prints every field of
+ * every frame as well; and cost, which tells on standard error what the frames cost. A debugger's command line has no
+ * quotes: no argument contains a blank.
  * Exit status: 0 played to the end, 2 bad arguments, 3 unreadable recording. */
 #include <stdlib.h>
 #include <string.h>

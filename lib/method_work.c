@@ -66,9 +66,9 @@ static void sort_slice(roadpose_t *instance) {
     const bool counting = instance->phase == (uint8_t)PHASE_SORT_COUNT;
     if (instance->cursor == 0u) {
         roadpose_thinning_begin(&instance->thinning, instance->settings.points_percent, 100);
-    }
-    if (counting && instance->cursor == 0u) {
-        roadpose_cloud_clear(&instance->work.cloud);
+        if (counting) {
+            roadpose_cloud_clear(&instance->work.cloud);
+        }
     }
     if (counting) {
         roadpose_cloud_count(&instance->work.cloud, &instance->points, instance->cursor, end, &instance->thinning);

@@ -111,7 +111,7 @@ bool roadpose_decoder_prepare(roadpose_decoder_t *decoder, const roadpose_dispar
     return true;
 }
 
-/* Sign and confidence inside the sample; formats without either skip the test. */
+/* Sign and confidence inside the sample. */
 static inline bool is_doubtful(const roadpose_decoder_t *decoder, uint32_t sample) {
     return (sample & decoder->sign_mask) != 0u || (sample & decoder->confidence_mask) < decoder->confidence_min;
 }

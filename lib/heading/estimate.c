@@ -252,10 +252,10 @@ static bool fit_turned(roadpose_heading_t *instance, const int32_t *along_q16, o
 }
 
 /* Fits, choice, and what they leave open. False: the tracks do not tell one focus. */
-static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *normal_q30, outcome_t *out) {
+static bool solve(roadpose_heading_t *instance, bool rate_known, outcome_t *out) {
     uint32_t random = instance->settings.seed;
     int32_t along_q16[ROADPOSE_UNKNOWNS_MOTION];
-    yaw_direction(normal_q30, along_q16);
+    yaw_direction(out->normal_q30, along_q16);
     roadpose_voters_choose(instance, out->focus.motion.turn_q24);
     if (roadpose_focus_search(instance, PAIRS, &random, &out->focus.motion) == 0 ||
         !fit_straight(instance, along_q16, out)) {
@@ -272,13 +272,13 @@ static bool solve(roadpose_heading_t *instance, bool rate_known, const int32_t *
 
 /* Standard deviation of the yaw: of the chosen fit; where a rotation was seen, also what that rotation leaves open, and
  * what the shrinking moved. Each below 2^22; squares below 2^44. */
-static int32_t sigma_urad(const outcome_t *out, const int32_t *normal_q30) {
+static int32_t sigma_urad(const outcome_t *out) {
     const int64_t own = out->deviation;
     int64_t square = own * own;
     if (out->left_q16 < 65536) {
         const int64_t unheld = out->free_deviation;
-        const int64_t moved_urad = (int64_t)roadpose_yaw_angle(out->motion.motion.focus_q24, normal_q30) -
-                                   roadpose_yaw_angle(out->chosen.motion.focus_q24, normal_q30);
+        const int64_t moved_urad = (int64_t)roadpose_yaw_angle(out->motion.motion.focus_q24, out->normal_q30) -
+                                   roadpose_yaw_angle(out->chosen.motion.focus_q24, out->normal_q30);
         const int64_t moved = moved_urad * (INT64_C(1) << 22) / MICRO;
         square = ((unheld * unheld > square) ? unheld * unheld : square) + moved * moved;
     }
@@ -286,8 +286,8 @@ static int32_t sigma_urad(const outcome_t *out, const int32_t *normal_q30) {
 }
 
 /* Figures that are told whatever the status. */
-static void report(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
-                   const outcome_t *out, roadpose_yaw_t *yaw) {
+static void report(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const outcome_t *out,
+                   roadpose_yaw_t *yaw) {
     const roadpose_lens_t *lens = &instance->lens;
     const int64_t noise_millipx = (int64_t)out->chosen.noise_q22 * 1000 / lens->px_q22;
     yaw->noise_millipx = (uint16_t)roadpose_clamp(noise_millipx, 0, UINT16_MAX);
@@ -297,7 +297,7 @@ static void report(const roadpose_heading_t *instance, const roadpose_motion_t *
         lens->cu_q8 + (int32_t)((int64_t)out->chosen.motion.focus_q24[0] * lens->focal_millipx / 65536000);
     yaw->focus_v_q8 =
         lens->cv_q8 + (int32_t)((int64_t)out->chosen.motion.focus_q24[1] * lens->focal_millipx / 65536000);
-    yaw->yaw_rate_urad_s = rate_urad_s(left_turn_q24(out->motion.motion.turn_q24, normal_q30), motion->interval_us);
+    yaw->yaw_rate_urad_s = rate_urad_s(left_turn_q24(out->motion.motion.turn_q24, out->normal_q30), motion->interval_us);
     yaw->yaw_rate_sigma_urad_s = rate_urad_s((int64_t)out->rate_deviation * 4, motion->interval_us);
 }
 
@@ -309,18 +309,18 @@ static bool agree_enough(const roadpose_heading_t *instance, const roadpose_yaw_
 
 /* From tracks alone: they tell the yaw rate too badly, or a turn explains them about as well, or a turn was found but too
  * few tracks agree with it, or they are loose enough to be a false focus. */
-static bool is_ambiguous(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
-                         const outcome_t *out, const roadpose_yaw_t *yaw) {
+static bool is_ambiguous(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const outcome_t *out,
+                         const roadpose_yaw_t *yaw) {
     const roadpose_heading_settings_t *s = &instance->settings;
-    const int32_t rival = rate_urad_s(left_turn_q24(out->rival_q24, normal_q30), motion->interval_us);
+    const int32_t rival = rate_urad_s(left_turn_q24(out->rival_q24, out->normal_q30), motion->interval_us);
     return yaw->yaw_rate_sigma_urad_s > s->rate_sigma_max_urad_s || roadpose_abs(rival) > s->yaw_rate_max_urad_s ||
            (out->turned && yaw->tracks_agreeing * 100u < yaw->tracks_moving * TURNED_PERCENT) ||
            yaw->noise_millipx * 100 > s->noise_max_millipx * UNTOLD_NOISE_PERCENT;
 }
 
 /* The gates that need the fits, in the order of the statuses. */
-static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const int32_t *normal_q30,
-                        const outcome_t *out, int32_t sigma, const roadpose_yaw_t *yaw) {
+static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motion_t *motion, const outcome_t *out,
+                        int32_t sigma, const roadpose_yaw_t *yaw) {
     const bool rate_known = motion->has_yaw_rate;
     const bool moves = motion->has_speed; /* fast enough, or this frame would not have come here */
     const roadpose_heading_settings_t *s = &instance->settings;
@@ -339,22 +339,22 @@ static uint8_t fit_gate(const roadpose_heading_t *instance, const roadpose_motio
     if (yaw->noise_millipx > s->noise_max_millipx) {
         return ROADPOSE_YAW_NOISY;
     }
-    if (!rate_known && is_ambiguous(instance, motion, normal_q30, out, yaw)) {
+    if (!rate_known && is_ambiguous(instance, motion, out, yaw)) {
         return ROADPOSE_YAW_AMBIGUOUS;
     }
     const bool open = !rate_known && urad_of_q22(out->free_deviation) > 2 * (int64_t)s->sigma_max_urad;
     return (open || sigma > s->sigma_max_urad) ? ROADPOSE_YAW_UNCERTAIN : ROADPOSE_YAW_OK;
 }
 
-static void fill_angles(roadpose_heading_t *instance, const outcome_t *out, const int32_t *normal_q30,
-                        int32_t sigma, roadpose_yaw_t *yaw) {
+static void fill_angles(roadpose_heading_t *instance, const outcome_t *out, int32_t sigma, roadpose_yaw_t *yaw) {
+    const int32_t *normal_q30 = out->normal_q30;
     const int32_t *focus = out->chosen.motion.focus_q24;
     const int32_t angle = roadpose_yaw_angle(focus, normal_q30);
     if (roadpose_abs(angle) > instance->settings.yaw_max_urad) {
         yaw->status = ROADPOSE_YAW_OUTSIDE_LIMITS;
         return;
     }
-    instance->free_urad = roadpose_yaw_angle(out->motion.motion.focus_q24, normal_q30) - angle;
+    instance->free_urad = roadpose_yaw_angle(out->motion.motion.focus_q24, out->normal_q30) - angle;
     yaw->yaw_urad = angle;
     yaw->sigma_urad = sigma;
     yaw->pitch_difference_urad = roadpose_descent(focus, normal_q30);
@@ -375,17 +375,17 @@ void roadpose_heading_estimate(roadpose_heading_t *instance, const roadpose_moti
         return;
     }
     turn_about_normal(vehicle_turn_q24(motion), normal, out.focus.motion.turn_q24);
-    if (!solve(instance, motion->has_yaw_rate, normal, &out)) {
+    if (!solve(instance, motion->has_yaw_rate, &out)) {
         yaw->status = ROADPOSE_YAW_NO_FOCUS;
         return;
     }
-    report(instance, motion, normal, &out, yaw);
-    const int32_t sigma = sigma_urad(&out, normal);
-    yaw->status = fit_gate(instance, motion, normal, &out, sigma, yaw);
+    report(instance, motion, &out, yaw);
+    const int32_t sigma = sigma_urad(&out);
+    yaw->status = fit_gate(instance, motion, &out, sigma, yaw);
     if (yaw->status == ROADPOSE_YAW_OK && normal_q30 == NULL) {
         yaw->status = ROADPOSE_YAW_NO_ROAD;
     }
     if (yaw->status == ROADPOSE_YAW_OK) {
-        fill_angles(instance, &out, normal, sigma, yaw);
+        fill_angles(instance, &out, sigma, yaw);
     }
 }

@@ -21,7 +21,7 @@ void roadpose_plane_pose(const roadpose_pixel_plane_t *plane, const roadpose_gri
 /* True where pitch, roll and height lie within the mounting limits. */
 bool roadpose_pose_within_limits(const roadpose_pose_t *pose, const roadpose_settings_t *settings);
 
-/* Prepares the box. */
+/* Prepares the box. Once for each instance: it depends on nothing but rig and settings. */
 void roadpose_plane_box(roadpose_plane_box_t *box, const roadpose_grid_t *grid, const roadpose_settings_t *settings);
 
 /* Is d = b y + c, with b and c of *plane, within the box? */
